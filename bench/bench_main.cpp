@@ -1,0 +1,18 @@
+#include "core/base/parallel.h"
+#include "core/tracer/tracer.h"
+
+#include <benchmark/benchmark.h>
+
+namespace hybray::bench {
+void register_ssrm();
+}
+
+int main(int argc, char** argv) {
+  benchmark::AddCustomContext("embree", hybray::embree_version());
+  benchmark::AddCustomContext("threads", std::to_string(hybray::thread_count()));
+  hybray::bench::register_ssrm();
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}

@@ -1,0 +1,51 @@
+// SSRM's verdicts held against traced truth. Exact definitions: docs/metrics.md.
+#pragma once
+
+#include "core/gbuffer/gbuffer.h"
+#include "core/ssrm/correction.h"
+#include "core/truth/ray_truth.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace hybray::metrics {
+
+// What a HIT turned out to be.
+enum class HitClass : uint8_t {
+  none,     // the ray is not a HIT
+  right,    // |t - t*| within the tolerance
+  phantom,  // truth hits nothing
+  early,    // claimed before the true hit
+  through,  // claimed beyond the true hit
+};
+
+struct VerdictTable {
+  uint64_t rays = 0;
+  std::array<uint64_t, ssrm::kVerdicts> verdicts{};         // by Verdict
+  uint64_t right = 0, phantom = 0, early = 0, through = 0;  // partition the HITs
+  uint64_t right_loose = 0;                                 // HITs within the loose tolerance
+  uint64_t visible_true_hits = 0;                           // rays whose true hit the main view sees
+  uint64_t false_misses = 0;                                // MISS verdicts of rays that truly hit something
+
+  uint64_t count(ssrm::Verdict v) const { return verdicts[static_cast<size_t>(v)]; }
+  uint64_t hits() const { return count(ssrm::Verdict::hit); }
+};
+
+struct Tolerance {
+  double footprint_factor = 1.0;  // k of |t - t*| <= k footprint / max(0.1, |cos|)
+};
+
+// Distance along the ray at which a HIT claims to lie: the ray's intersection with the accepted pixel's
+// plane, metres.
+double claimed_distance(const ssrm::DepthView& depth, const ssrm::ScreenRays& screen_rays,
+                        const RayStream& rays, const View& view, size_t ray, uint32_t pixel);
+
+// Classifies every ray. The G-buffer must hold primitives, whose normals give the cosine. If `classes` is not
+// null it receives one entry a ray.
+VerdictTable judge(const ssrm::MarchResults& results, const ssrm::DepthView& depth,
+                   const ssrm::ScreenRays& screen_rays, const RayStream& rays, const truth::RayTruth& truth,
+                   const GBuffer& gbuffer, const Scene& scene, const Tolerance& tolerance,
+                   std::vector<HitClass>* classes = nullptr);
+
+}  // namespace hybray::metrics

@@ -1,0 +1,120 @@
+#include "core/scene/gltf_properties.h"
+
+#include "core/base/error.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/trigonometric.hpp>
+#include <tiny_gltf.h>
+
+namespace hybray {
+namespace {
+
+constexpr double kRounding = 1e-5;  // how far outside its range a factor may be written
+constexpr double kUnbounded = 1e30;
+
+float in_range(double value, double lower, double upper, const std::string& where) {
+  if (!(value >= lower - kRounding && value <= upper + kRounding))
+    throw InputError(where, upper < kUnbounded
+                                ? fmt::format("{} is not between {} and {}", value, lower, upper)
+                                : fmt::format("{} is below {} or not finite", value, lower));
+  return static_cast<float>(std::clamp(value, lower, upper));
+}
+
+vec3 color(const std::vector<double>& values, double upper, const std::string& where) {
+  vec3 result;
+  for (int c = 0; c < 3; ++c) result[c] = in_range(values[static_cast<size_t>(c)], 0.0, upper, where);
+  return result;
+}
+
+// A number inside a material's extension.
+double extension_number(const tinygltf::ExtensionMap& extensions, const char* extension, const char* key,
+                        double otherwise) {
+  const auto found = extensions.find(extension);
+  if (found == extensions.end() || !found->second.Has(key)) return otherwise;
+  return found->second.Get(key).GetNumberAsDouble();
+}
+
+vec3 unit(const dvec3& v) {
+  return vec3(glm::normalize(v));
+}
+
+}  // namespace
+
+Material default_gltf_material() {
+  Material material;
+  material.name = "default";
+  material.base_color = vec3(1.0f);
+  material.metallic = 1.0f;
+  return material;
+}
+
+Material read_material(const GltfFile& file, size_t index) {
+  const tinygltf::Material& from = file.model.materials[index];
+  const std::string at = file.at(fmt::format("/materials/{}", index));
+  const std::string pbr = at + "/pbrMetallicRoughness", extensions = at + "/extensions";
+  Material to;
+  to.name = from.name.empty() ? fmt::format("material {}", index) : from.name;
+  const auto& factors = from.pbrMetallicRoughness;
+  to.base_color = color(factors.baseColorFactor, 1.0, pbr + "/baseColorFactor");
+  to.metallic = in_range(factors.metallicFactor, 0.0, 1.0, pbr + "/metallicFactor");
+  to.roughness = in_range(factors.roughnessFactor, 0.0, 1.0, pbr + "/roughnessFactor");
+  to.transmission =
+      in_range(extension_number(from.extensions, "KHR_materials_transmission", "transmissionFactor", 0.0),
+               0.0, 1.0, extensions + "/KHR_materials_transmission/transmissionFactor");
+  to.ior = in_range(extension_number(from.extensions, "KHR_materials_ior", "ior", 1.5), 1.0, kUnbounded,
+                    extensions + "/KHR_materials_ior/ior");
+  const double strength =
+      extension_number(from.extensions, "KHR_materials_emissive_strength", "emissiveStrength", 1.0);
+  in_range(strength, 0.0, kUnbounded, extensions + "/KHR_materials_emissive_strength/emissiveStrength");
+  std::vector<double> emissive = from.emissiveFactor;
+  for (double& e : emissive) e *= strength;
+  to.emissive = color(emissive, kUnbounded, at + "/emissiveFactor");
+  return to;
+}
+
+Light read_light(const GltfFile& file, size_t index, const dmat4& transform) {
+  const tinygltf::Light& from = file.model.lights[index];
+  const std::string at = file.at(fmt::format("/extensions/KHR_lights_punctual/lights/{}", index));
+  Light to;
+  if (from.type == "directional")
+    to.kind = LightKind::directional;
+  else if (from.type == "point")
+    to.kind = LightKind::point;
+  else if (from.type == "spot")
+    to.kind = LightKind::spot;
+  else
+    throw InputError(at + "/type", fmt::format("'{}' is not directional, point or spot", from.type));
+  to.position = vec3(dvec3(transform[3]));
+  to.direction = unit(-dvec3(transform[2]));
+  if (!from.color.empty()) to.color = color(from.color, kUnbounded, at + "/color");
+  to.intensity = in_range(from.intensity, 0.0, kUnbounded, at + "/intensity");
+  to.range = in_range(from.range, 0.0, kUnbounded, at + "/range");
+  if (to.kind == LightKind::spot) {
+    constexpr double kQuarterTurn = 1.5707963267948966;
+    to.inner_cone_angle = in_range(from.spot.innerConeAngle, 0.0, kQuarterTurn, at + "/spot/innerConeAngle");
+    to.outer_cone_angle = in_range(from.spot.outerConeAngle, 0.0, kQuarterTurn, at + "/spot/outerConeAngle");
+    if (to.inner_cone_angle >= to.outer_cone_angle)
+      throw InputError(at + "/spot", "innerConeAngle is not smaller than outerConeAngle");
+  }
+  return to;
+}
+
+std::optional<Camera> read_camera(const GltfFile& file, size_t index, const dmat4& transform) {
+  const tinygltf::Camera& from = file.model.cameras[index];
+  if (from.type != "perspective") return std::nullopt;
+  const double degrees = glm::degrees(from.perspective.yfov);
+  if (!(degrees > 0.0 && degrees < 180.0))
+    throw InputError(file.at(fmt::format("/cameras/{}/perspective/yfov", index)),
+                     fmt::format("{} radians are not between 0 and pi", from.perspective.yfov));
+  Camera to;
+  to.eye = vec3(dvec3(transform[3]));
+  to.target = vec3(dvec3(transform[3]) - glm::normalize(dvec3(transform[2])));
+  to.up = unit(dvec3(transform[1]));
+  to.vertical_fov = static_cast<float>(degrees);
+  return to;
+}
+
+}  // namespace hybray

@@ -1,0 +1,39 @@
+#include "core/ssrm/correction.h"
+
+#include "core/ssrm/cell_walk.h"
+
+#include <algorithm>
+
+namespace hybray::ssrm {
+
+PlaneGap plane_gap(const DepthView& view, const ScreenRay<double>& ray, int x, int y) {
+  const vec2 d = view.derivatives(x, y);
+  const double gx = view.depth_sign * static_cast<double>(d.x),
+               gy = view.depth_sign * static_cast<double>(d.y);
+  const double center = view.pyramid.at(0, x, y);
+  return {ray.oz - center - gx * (ray.ox - (x + 0.5)) - gy * (ray.oy - (y + 0.5)),
+          ray.dz - gx * ray.dx - gy * ray.dy};
+}
+
+SlantedTest slanted_test(const DepthView& view, const ScreenRay<double>& ray, int x, int y) {
+  const Axis<double> ax{ray.ox, ray.dx, view.width()}, ay{ray.oy, ray.dy, view.height()};
+  const double enter = std::max(ax.crossing(ax.entry_border(x)), ay.crossing(ay.entry_border(y)));
+  const double leave =
+      std::min({ax.crossing(ax.exit_border(x, 0)), ay.crossing(ay.exit_border(y, 0)), ray.l_end});
+  const PlaneGap gap = plane_gap(view, ray, x, y);
+  return {gap.at(enter) <= 0.0, gap.at(leave) >= 0.0};
+}
+
+Correction correct(const DepthView& view, const ScreenRay<double>& ray, ivec2 pixel, ivec2 previous,
+                   ivec2 origin) {
+  const auto index = [&](ivec2 p) {
+    return static_cast<uint32_t>(p.y) * static_cast<uint32_t>(view.width()) + static_cast<uint32_t>(p.x);
+  };
+  const SlantedTest here = slanted_test(view, ray, pixel.x, pixel.y);
+  if (here.passes()) return {Verdict::hit, index(pixel)};
+  if (previous != origin && slanted_test(view, ray, previous.x, previous.y).passes())
+    return {Verdict::hit, index(previous)};
+  return {here.enters_in_front ? Verdict::correction : Verdict::behind, kNoPixel};
+}
+
+}  // namespace hybray::ssrm

@@ -1,0 +1,47 @@
+// Result correction: a pixel as a slanted plane (SSRM paper, third stage; DESIGN of the verdicts in
+// docs/metrics.md).
+#pragma once
+
+#include "core/base/image2d.h"
+#include "core/gbuffer/depth_pyramid.h"
+#include "core/ssrm/screen_rays.h"
+
+namespace hybray::ssrm {
+
+// What a marcher sees of the main view. The references must outlive it.
+struct DepthView {
+  const DepthPyramid& pyramid;
+  const Image2D<vec2>& derivatives;  // device depth a pixel, as in GBuffer
+  int depth_sign;                    // View::depth_sign()
+  int width() const { return pyramid.width(); }
+  int height() const { return pyramid.height(); }
+};
+
+// Signed distance, in march depth, of a ray behind the plane of one pixel, as an affine function of L: at(l)
+// < 0 in front of it, > 0 behind it.
+struct PlaneGap {
+  double offset, slope;
+  double at(double l) const { return offset + l * slope; }
+  double crossing() const { return -offset / slope; }
+};
+PlaneGap plane_gap(const DepthView& view, const ScreenRay<double>& ray, int x, int y);
+
+// The slanted test. Evaluated in double from the float ray: once a ray, and free of the rounding that would
+// open cracks between neighbours' planes.
+struct SlantedTest {
+  bool enters_in_front;  // not behind the plane where the ray enters the pixel
+  bool leaves_behind;    // not in front of it where the ray leaves the pixel, or ends
+  bool passes() const { return enters_in_front && leaves_behind; }
+};
+SlantedTest slanted_test(const DepthView& view, const ScreenRay<double>& ray, int x, int y);
+
+// Verdict and accepted pixel of a ray whose march stopped at `pixel`, entered from `previous`. `origin` is
+// the ray's own pixel, which is never accepted.
+struct Correction {
+  Verdict verdict;  // hit, behind or correction
+  uint32_t pixel;
+};
+Correction correct(const DepthView& view, const ScreenRay<double>& ray, ivec2 pixel, ivec2 previous,
+                   ivec2 origin);
+
+}  // namespace hybray::ssrm

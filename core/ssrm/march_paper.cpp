@@ -1,0 +1,79 @@
+#include "core/ssrm/march_paper.h"
+
+#include "core/base/check.h"
+#include "core/base/parallel.h"
+#include "core/ssrm/cell_walk.h"
+
+#include <atomic>
+
+namespace hybray::ssrm {
+namespace {
+
+constexpr int kSamplesPerIteration = 4;  // the paper's balance of arithmetic against memory
+
+ScreenRay<double> promoted(const ScreenRay<float>& r) {
+  return {r.ox, r.oy, r.oz, r.dx, r.dy, r.dz, r.l_end, r.end};
+}
+
+}  // namespace
+
+Correction march_paper_ray(const DepthView& view, const ScreenRay<float>& ray, uint32_t pixel,
+                           const MarchOptions& options, uint64_t& steps) {
+  // Stage 1: initialisation, up to the exit of the origin pixel.
+  const ivec2 origin(static_cast<int>(pixel % static_cast<uint32_t>(view.width())),
+                     static_cast<int>(pixel / static_cast<uint32_t>(view.width())));
+  CellWalk<float> walk(ray, view.width(), view.height(), origin.x, origin.y);
+  const auto first_exit = walk.exit(0);
+  if (ray.l_end <= first_exit.l()) return {ray.end, kNoPixel};
+  if (!walk.advance(first_exit, 0)) return {Verdict::offscreen, kNoPixel};
+
+  // Stage 2: march. A level up after an iteration without intersection, a level down to redo the cell where
+  // there was one.
+  const int top = view.pyramid.levels() - 1;
+  const uint64_t last_step = options.step_budget ? steps + options.step_budget : ~uint64_t{0};
+  for (int level = 0;;) {
+    bool intersects = false;
+    for (int sample = 0; sample < kSamplesPerIteration; ++sample) {
+      if (steps == last_step) return {Verdict::budget, kNoPixel};
+      ++steps;
+      const auto exit = walk.exit(level);
+      const bool ends = ray.l_end <= exit.l();
+      const float leave = ends ? ray.l_end : exit.l();
+      const float farthest = std::max(ray.rise(walk.l), ray.rise(leave));
+      if (farthest > view.pyramid.at(level, walk.px >> level, walk.py >> level) - ray.oz) {
+        intersects = true;
+        break;
+      }
+      if (ends) return {ray.end, kNoPixel};
+      if (!walk.advance(exit, level)) return {Verdict::offscreen, kNoPixel};
+    }
+    if (!intersects)
+      level = std::min(level + 1, top);
+    else if (level > 0)
+      --level;
+    else
+      break;
+  }
+
+  // Stage 3: correction with slanted planes.
+  return correct(view, promoted(ray), {walk.px, walk.py}, walk.previous(), origin);
+}
+
+void march_paper(const DepthView& view, const ScreenRays& rays, const std::vector<uint32_t>& pixels,
+                 const MarchOptions& options, MarchResults& results) {
+  HYBRAY_CHECK_EQ(rays.size(), pixels.size());
+  HYBRAY_CHECK_EQ(rays.size(), results.size());
+  std::atomic<uint64_t> steps{0};
+  parallel_blocks(rays.size(), 1024, [&](size_t begin, size_t end) {
+    uint64_t mine = 0;
+    for (size_t i = begin; i < end; ++i) {
+      const Correction c = march_paper_ray(view, rays.get<float>(i), pixels[i], options, mine);
+      results.verdict[i] = c.verdict;
+      results.pixel[i] = c.pixel;
+    }
+    steps += mine;
+  });
+  results.steps = steps;
+}
+
+}  // namespace hybray::ssrm

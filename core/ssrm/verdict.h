@@ -1,0 +1,42 @@
+// How a screen-space ray ends.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace hybray::ssrm {
+
+// HIT, MISS, or UNKNOWN with the first event that ended the march.
+enum class Verdict : uint8_t {
+  hit,   // passed the slanted-plane test of the accepted pixel
+  miss,  // in front of all stored depth, at pixel centres, until it left the scene's bounds inside the view
+  offscreen,   // left the view volume through the side of the screen or the far plane
+  viewer,      // left it through the near plane
+  behind,      // already behind the failing pixel's slanted plane where it enters that pixel
+  correction,  // any other failed correction
+  budget,      // step budget exhausted
+};
+constexpr int kVerdicts = 7;
+const char* label(Verdict verdict);
+
+constexpr bool is_unknown(Verdict v) {
+  return v > Verdict::miss;
+}
+
+constexpr uint32_t kNoPixel = 0xffffffffu;  // the paper's (-1, -1)
+
+// One result for each ray, in the order of the rays.
+struct MarchResults {
+  std::vector<Verdict> verdict;
+  std::vector<uint32_t> pixel;  // row-major index of the accepted pixel of a HIT, else kNoPixel
+  uint64_t steps = 0;           // depth samples read, all rays together
+
+  void resize(size_t n) {
+    verdict.resize(n);
+    pixel.resize(n);
+  }
+  size_t size() const { return verdict.size(); }
+};
+
+}  // namespace hybray::ssrm

@@ -1,0 +1,91 @@
+// The general ray tracer over Embree. One source file (tracer_embree.cpp) knows Embree's API; everything else
+// sees this header.
+#pragma once
+
+#include "core/base/ray_stream.h"
+#include "core/scene/scene.h"
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hybray {
+
+// How a list of rays is handed to Embree. Packets take neighbours in the list; `coherent` sets Embree's flag
+// of that name.
+enum class TraceMode : uint8_t {
+  single,
+  packet4,
+  packet8,
+  packet16,
+  packet4_coherent,
+  packet8_coherent,
+  packet16_coherent,
+};
+inline constexpr TraceMode kAllTraceModes[] = {TraceMode::single,           TraceMode::packet4,
+                                               TraceMode::packet8,          TraceMode::packet16,
+                                               TraceMode::packet4_coherent, TraceMode::packet8_coherent,
+                                               TraceMode::packet16_coherent};
+const char* label(TraceMode mode);
+
+// Nearest hit of one ray.
+struct Hit {
+  float t = std::numeric_limits<float>::infinity();  // metres along the (unit) direction
+  uint32_t primitive = kNoPrimitive;                 // triangle number in the scene
+  float u = 0.0f, v = 0.0f;  // barycentric weights of the triangle's second and third vertex
+  bool valid() const { return primitive != kNoPrimitive; }
+};
+
+class Tracer {
+ public:
+  struct Config {
+    bool robust = false;       // watertight, slower traversal (RTC_SCENE_FLAG_ROBUST)
+    bool high_quality = true;  // spatial-split BVH: slower to build, faster to trace
+  };
+
+  // Builds the acceleration structure; `scene` must outlive the tracer and not change. Throws RuntimeError
+  // with Embree's own message.
+  Tracer(const Scene& scene, const Config& config);
+  ~Tracer();
+  Tracer(const Tracer&) = delete;
+  Tracer& operator=(const Tracer&) = delete;
+
+  const Scene& scene() const;
+  size_t memory_bytes() const;  // of the acceleration structure
+
+  // Nearest hit with t in [t_near, t_far]. Safe to call from many threads.
+  Hit intersect(const vec3& origin, const vec3& direction, float t_near = 0.0f,
+                float t_far = std::numeric_limits<float>::infinity()) const;
+
+  // Whether anything is hit with t in [t_near, t_far].
+  bool occluded(const vec3& origin, const vec3& direction, float t_near, float t_far) const;
+
+  // Nearest hits of rays.size() rays into `hits` (resized by the caller, same size), all threads. Rays start
+  // at t = 0.
+  void trace(const RayStream& rays, HitStream& hits, TraceMode mode) const;
+
+  // The same for the rays listed in `which` (indices into `rays`), each result written to its own place in
+  // `hits`.
+  void trace_some(const RayStream& rays, std::span<const uint32_t> which, HitStream& hits,
+                  TraceMode mode) const;
+
+  // Nearest hits with t in [t_near, t_far] of `count` <= 16 rays from one common origin, as one coherent
+  // packet (primary rays of a tile). Directions need not have unit length; t is in units of their length.
+  void intersect_packet16(const vec3& origin, const vec3* directions, int count, float t_near, float t_far,
+                          Hit* hits) const;
+
+ private:
+  void trace_blocks(const RayStream& rays, std::span<const uint32_t> which, size_t count, HitStream& hits,
+                    TraceMode mode) const;
+
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// Embree's version ("3.13.5") and the widest instruction set it uses here.
+std::string embree_version();
+
+}  // namespace hybray

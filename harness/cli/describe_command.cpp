@@ -1,0 +1,116 @@
+#include "core/base/error.h"
+#include "harness/cli/commands.h"
+#include "harness/config/parameter_rules.h"
+#include "harness/config/schema.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace hybray {
+namespace {
+
+const char* label(ColumnKind kind) {
+  switch (kind) {
+    case ColumnKind::key:
+      return "key";
+    case ColumnKind::metric:
+      return "metric";
+    case ColumnKind::time:
+      return "time";
+    case ColumnKind::count:
+      return "count";
+  }
+  return "";
+}
+
+const char* label(Better better) {
+  switch (better) {
+    case Better::none:
+      return "";
+    case Better::lower:
+      return "lower";
+    case Better::higher:
+      return "higher";
+  }
+  return "";
+}
+
+using Cells = std::vector<std::string>;
+
+std::vector<Cells> parameter_table(const Experiment& experiment) {
+  std::vector<Cells> table{{"parameter", "unit", "default", "accepts", "meaning"}};
+  for (const Parameter& p : experiment.parameters) {
+    const bool required = std::holds_alternative<std::monostate>(p.default_value);
+    table.push_back(
+        {p.name, p.unit, required ? "(required)" : to_text(p.default_value), expectation(p), p.text});
+  }
+  return table;
+}
+
+std::vector<Cells> column_table(const Experiment& experiment) {
+  std::vector<Cells> table{{"column", "unit", "kind", "better", "meaning"}};
+  table.push_back(
+      {"id", "", "key", "", "Id of the point: a hash of its parameters, the seed and the scene."});
+  for (const Column& c : experiment.columns)
+    table.push_back({c.name, c.unit, label(c.kind), label(c.better), c.text});
+  return table;
+}
+
+// Columns padded to the same width, but for the last.
+void print_text(const std::vector<Cells>& table) {
+  std::vector<size_t> widths(table.front().size(), 0);
+  for (const Cells& row : table) {
+    for (size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  }
+  for (const Cells& row : table) {
+    std::string line;
+    for (size_t i = 0; i + 1 < row.size(); ++i) line += fmt::format("{:<{}}  ", row[i], widths[i]);
+    fmt::print("{}{}\n", line, row.back());
+  }
+}
+
+void print_markdown(const std::vector<Cells>& table) {
+  for (size_t r = 0; r < table.size(); ++r) {
+    std::string line = "|";
+    for (const std::string& cell : table[r]) {
+      std::string escaped;
+      for (const char c : cell) escaped += c == '|' ? std::string("\\|") : std::string(1, c);
+      line += " " + escaped + " |";
+    }
+    fmt::print("{}\n", line);
+    if (r > 0) continue;
+    std::string rule = "|";
+    for (size_t i = 0; i < table[r].size(); ++i) rule += "---|";
+    fmt::print("{}\n", rule);
+  }
+}
+
+}  // namespace
+
+int describe_command(const Environment& environment, const DescribeOptions& options) {
+  if (options.experiment.empty()) {
+    if (options.format == DescribeFormat::schema) throw InputError("--schema", "name the experiment");
+    for (const Experiment& e : environment.experiments) fmt::print("{}  {}\n", e.name, e.text);
+    return kOk;
+  }
+  std::vector<std::string> known;
+  for (const Experiment& e : environment.experiments) {
+    known.push_back(e.name);
+    if (e.name != options.experiment) continue;
+    if (options.format == DescribeFormat::schema) {
+      fmt::print("{}", config_schema_text(e));
+      return kOk;
+    }
+    const bool markdown = options.format == DescribeFormat::markdown;
+    const auto print = markdown ? print_markdown : print_text;
+    fmt::print("{}{}\n{}\n\n", markdown ? "## " : "", e.name, e.text);
+    print(parameter_table(e));
+    fmt::print("\n");
+    print(column_table(e));
+    return kOk;
+  }
+  throw InputError("describe", unknown_name("experiment", options.experiment, known));
+}
+
+}  // namespace hybray

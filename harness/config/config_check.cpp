@@ -1,0 +1,217 @@
+#include "harness/config/config_check.h"
+
+#include "core/base/error.h"
+#include "harness/config/json_value.h"
+#include "harness/config/parameter_rules.h"
+#include "harness/config/schema.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace hybray {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const std::vector<std::string> kKeys = {"$schema", "experiment", "title", "text",
+                                        "seed",    "parameters", "sweep", "optional_scenes"};
+
+std::string found_text(const Json& json) {
+  constexpr size_t kLongest = 60;
+  const std::string text = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
+}
+
+// Collects the problems of one document.
+class Checker {
+ public:
+  Checker(const JsonSource& source, const Experiment& experiment)
+      : source_(source), experiment_(experiment) {}
+
+  std::vector<Problem> run() {
+    const Json& root = source_.root();
+    for (const auto& [key, value] : root.items()) {
+      const std::string pointer = child_pointer("", key);
+      if (std::find(kKeys.begin(), kKeys.end(), key) == kKeys.end()) {
+        at_key(pointer, unknown_name("key", key, kKeys));
+      } else if (key == "parameters") {
+        parameters(pointer, value);
+      } else if (key == "sweep") {
+        sweep(pointer, value);
+      } else if (key == "seed") {
+        seed(pointer, value);
+      } else if (key == "optional_scenes") {
+        optional_scenes(pointer, value);
+      } else if (!value.is_string()) {
+        at_value(pointer, fmt::format("found {}; expected text", found_text(value)));
+      }
+    }
+    return std::move(problems_);
+  }
+
+ private:
+  void at_value(const std::string& pointer, const std::string& message) {
+    problems_.push_back({source_.place(pointer), message});
+  }
+  void at_key(const std::string& pointer, const std::string& message) {
+    problems_.push_back({source_.key_place(pointer), message});
+  }
+
+  void seed(const std::string& pointer, const Json& value) {
+    constexpr int64_t kLargest = int64_t{1} << 53;
+    if (!value.is_number_unsigned() || value.get<uint64_t>() >= kLargest) {
+      at_value(pointer,
+               fmt::format("found {}; expected an integer from 0 to {}", found_text(value), kLargest - 1));
+    }
+  }
+
+  // Calls visit(pointer, parameter, value) for each member of an object of parameters; unknown names are
+  // problems.
+  template <class Visit>
+  void members(const std::string& pointer, const Json& object, const Visit& visit) {
+    if (!object.is_object()) {
+      at_value(pointer, fmt::format("found {}; expected an object {{...}}", found_text(object)));
+      return;
+    }
+    for (const auto& [name, value] : object.items()) {
+      const std::string member = child_pointer(pointer, name);
+      const Parameter* parameter = find_parameter(experiment_, name);
+      if (parameter)
+        visit(member, *parameter, value);
+      else
+        at_key(member, unknown_parameter(experiment_, name));
+    }
+  }
+
+  void parameters(const std::string& pointer, const Json& object) {
+    members(pointer, object, [&](const std::string& member, const Parameter& p, const Json& value) {
+      if (value.is_array()) {
+        at_value(member, fmt::format("found {}; expected {}; a list of values belongs in \"sweep\"",
+                                     found_text(value), expectation(p)));
+      } else {
+        one_value(member, p, value);
+      }
+    });
+  }
+
+  void sweep(const std::string& pointer, const Json& object) {
+    members(pointer, object, [&](const std::string& member, const Parameter& p, const Json& list) {
+      const Json& root = source_.root();
+      if (root.contains("parameters") && root["parameters"].is_object() &&
+          root["parameters"].contains(p.name)) {
+        at_key(member, fmt::format("the parameter \"{}\" stands in \"parameters\" too, at {}", p.name,
+                                   source_.key_place("/parameters/" + p.name)));
+      }
+      if (!list.is_array()) {
+        at_value(
+            member,
+            fmt::format("found {}; expected a list [...] of values; a single value belongs in \"parameters\"",
+                        found_text(list)));
+        return;
+      }
+      if (list.empty()) at_value(member, "found an empty list; expected at least one value");
+      std::vector<Value> values;
+      for (size_t i = 0; i < list.size(); ++i) list_value(child_pointer(member, i), p, list, i, values);
+    });
+  }
+
+  void list_value(const std::string& pointer, const Parameter& p, const Json& list, size_t i,
+                  std::vector<Value>& before) {
+    const size_t known_problems = problems_.size();
+    const Value value = one_value(pointer, p, list[i]);
+    if (problems_.size() > known_problems) return;
+    if (std::find(before.begin(), before.end(), value) != before.end()) {
+      at_value(pointer, fmt::format("the value {} stands twice in this list", json_text(value)));
+    }
+    if (p.type == ParameterType::camera && value == Value("*") && list.size() > 1) {
+      at_value(pointer, "\"*\" stands for every camera of the scene, so it must be the only value here");
+    }
+    before.push_back(value);
+  }
+
+  Value one_value(const std::string& pointer, const Parameter& p, const Json& json) {
+    Value value = scalar_value(json);
+    if (!accept(p, value)) at_value(pointer, rejection(p, found_text(json), value));
+    return value;
+  }
+
+  void optional_scenes(const std::string& pointer, const Json& list) {
+    if (!list.is_array()) {
+      at_value(pointer, fmt::format("found {}; expected a list [...] of scene names", found_text(list)));
+      return;
+    }
+    const std::vector<std::string> scenes = scenes_of_config();
+    for (size_t i = 0; i < list.size(); ++i) {
+      const std::string item = child_pointer(pointer, i);
+      if (!list[i].is_string()) {
+        at_value(item, fmt::format("found {}; expected the name of a scene", found_text(list[i])));
+      } else if (std::find(scenes.begin(), scenes.end(), list[i]) == scenes.end()) {
+        at_value(item, fmt::format("{} is not among the scenes of this config", found_text(list[i])));
+      } else if (std::find(list.begin(), list.begin() + i, list[i]) != list.begin() + i) {
+        at_value(item, fmt::format("the value {} stands twice in this list", found_text(list[i])));
+      }
+    }
+  }
+
+  std::vector<std::string> scenes_of_config() const {
+    std::vector<std::string> scenes;
+    for (const Parameter& p : experiment_.parameters) {
+      if (p.type != ParameterType::scene) continue;
+      for (const char* part : {"/parameters/", "/sweep/"}) {
+        const Json::json_pointer pointer(part + p.name);
+        if (!source_.root().contains(pointer)) continue;
+        const Json& value = source_.root()[pointer];
+        for (const Json& scene : value.is_array() ? value : Json::array({value})) {
+          if (scene.is_string()) scenes.push_back(scene);
+        }
+      }
+    }
+    return scenes;
+  }
+
+  const JsonSource& source_;
+  const Experiment& experiment_;
+  std::vector<Problem> problems_;
+};
+
+}  // namespace
+
+const Experiment& experiment_of(const JsonSource& source, std::span<const Experiment> experiments) {
+  std::vector<std::string> known;
+  for (const Experiment& e : experiments) known.push_back(e.name);
+  const Json& root = source.root();
+  if (!root.is_object()) {
+    throw InputError(source.place(""), fmt::format("found {}; expected an object {{...}}", found_text(root)));
+  }
+  if (!root.contains("experiment")) {
+    throw InputError(source.place(""), "the key \"experiment\" is missing: it names the experiment to run");
+  }
+  const Json& name = root["experiment"];
+  for (const Experiment& e : experiments) {
+    if (name == e.name) return e;
+  }
+  const std::string place = source.place("/experiment");
+  if (name.is_string()) throw InputError(place, unknown_name("experiment", name, known));
+  throw InputError(place, fmt::format("found {}; expected the name of an experiment", found_text(name)));
+}
+
+std::vector<Problem> config_problems(const JsonSource& source, const Experiment& experiment) {
+  std::vector<Problem> problems = Checker(source, experiment).run();
+  if (!problems.empty()) return problems;
+  for (const SchemaViolation& violation : schema_violations(config_schema(experiment), source.root())) {
+    problems.push_back({source.place(violation.pointer), violation.message});
+  }
+  return problems;
+}
+
+void throw_problems(const std::vector<Problem>& problems) {
+  if (problems.empty()) return;
+  std::string message = problems.front().message;
+  for (size_t i = 1; i < problems.size(); ++i)
+    message += '\n' + problems[i].place + ": " + problems[i].message;
+  throw InputError(problems.front().place, message);
+}
+
+}  // namespace hybray

@@ -1,0 +1,46 @@
+// What one parameter accepts: as a check, in words for messages and docs, and as a value read from text.
+#pragma once
+
+#include "harness/experiments/experiment.h"
+
+#include <string>
+#include <utility>
+
+namespace hybray {
+
+// What a config may give, in words: `an integer from 1 to 9`, `one of "standard", "reversed"`.
+std::string expectation(const Parameter& parameter);
+
+// Whether the parameter accepts `value`; an integer given for a number becomes one.
+bool accept(const Parameter& parameter, Value& value);
+
+// `value` as JSON would write it: "text", 1.5, true, null.
+std::string json_text(const Value& value);
+
+// `found X; expected Y`, with the nearest choice where there is one. `found` is X as the user wrote it.
+std::string rejection(const Parameter& parameter, const std::string& found, const Value& value);
+
+// The value that KEY=VALUE on the command line gives: text for names and choices, else JSON. Throws
+// InputError with `place` where the parameter does not accept it.
+Value value_from_text(const Parameter& parameter, const std::string& text, const std::string& place);
+
+// The experiment's parameter of that name, or nullptr.
+const Parameter* find_parameter(const Experiment& experiment, const std::string& name);
+
+// `unknown parameter "x"; did you mean "y"?`
+std::string unknown_parameter(const Experiment& experiment, const std::string& name);
+
+// `; did you mean "y"?`, or `; known are: y, z` where nothing is near.
+std::string suggestion(const std::string& name, const std::vector<std::string>& known);
+
+// `unknown WHAT "x"` with the suggestion.
+std::string unknown_name(const std::string& what, const std::string& name,
+                         const std::vector<std::string>& known);
+
+// A "WIDTHxHEIGHT" text with each side in the parameter's range.
+bool is_resolution(const Parameter& parameter, const std::string& text);
+
+// The sides that a resolution parameter accepts, pixels: its range, or 1 to 65536.
+std::pair<int64_t, int64_t> side_range(const Parameter& parameter);
+
+}  // namespace hybray

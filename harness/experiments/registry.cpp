@@ -1,0 +1,18 @@
+// Every experiment of this build, in one list.
+#include "harness/experiments/ssrm.h"
+
+namespace hybray {
+
+std::span<const Experiment> experiments() {
+  static const std::vector<Experiment> all = {ssrm_experiment()};
+  return all;
+}
+
+const Experiment* find_experiment(const std::string& name) {
+  for (const Experiment& experiment : experiments()) {
+    if (experiment.name == name) return &experiment;
+  }
+  return nullptr;
+}
+
+}  // namespace hybray

@@ -1,0 +1,52 @@
+#include "harness/experiments/ssrm_picture.h"
+
+#include "core/base/image_io.h"
+#include "harness/experiments/workspace.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace hybray {
+namespace {
+
+using Rgb = std::array<uint8_t, 3>;
+constexpr Rgb kUnknown{40, 70, 200}, kMiss{150, 190, 240}, kFalseHit{220, 30, 30};
+
+// Grey of a reflected surface under a light at the ray's origin: luminance times cosine, in sRGB.
+Rgb reflected_grey(const GBuffer& g, const Scene& scene, uint32_t pixel, const vec3& direction) {
+  const vec3 color = scene.materials[g.material[pixel]].base_color;
+  const double luminance = 0.2126 * color.x + 0.7152 * color.y + 0.0722 * color.z;
+  const double cosine = std::abs(glm::dot(geometric_normal(scene, g.primitive[pixel]), dvec3(direction)));
+  const double linear = std::clamp(luminance * (0.15 + 0.85 * cosine), 0.0, 1.0);
+  const auto grey = static_cast<uint8_t>(std::lround(40.0 + 215.0 * std::pow(linear, 1.0 / 2.2)));
+  return {grey, grey, grey};
+}
+
+Rgb color_of(ssrm::Verdict verdict, metrics::HitClass kind, const GBuffer& g, const Scene& scene,
+             uint32_t pixel, const vec3& direction) {
+  if (verdict == ssrm::Verdict::miss) return kMiss;
+  if (verdict != ssrm::Verdict::hit) return kUnknown;
+  return kind == metrics::HitClass::right ? reflected_grey(g, scene, pixel, direction) : kFalseHit;
+}
+
+}  // namespace
+
+void write_verdict_picture(const Point& point, const Workspace& workspace, const GBuffer& gbuffer,
+                           const Scene& scene, const RayStream& rays, const ssrm::MarchResults& results,
+                           const std::vector<metrics::HitClass>& classes) {
+  const int width = gbuffer.view.width(), height = gbuffer.view.height();
+  std::vector<uint8_t> rgb(3 * static_cast<size_t>(width) * static_cast<size_t>(height), 0);
+  for (size_t i = 0; i < rays.size(); ++i) {
+    const Rgb color =
+        color_of(results.verdict[i], classes[i], gbuffer, scene, results.pixel[i], rays.direction(i));
+    std::copy(color.begin(), color.end(), rgb.begin() + 3 * static_cast<ptrdiff_t>(rays.pixel[i]));
+  }
+  const std::filesystem::path folder = workspace.settings().output / "pictures";
+  std::filesystem::create_directories(folder);
+  write_png(folder / (point.text("scene") + "_" + point.text("camera") + "_" + point.text("resolution") +
+                      "_" + point.id + ".png"),
+            width, height, rgb);
+}
+
+}  // namespace hybray

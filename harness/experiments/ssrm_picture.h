@@ -1,0 +1,19 @@
+// The SSRM paper's figure: mirror reflections by screen-space marching, coloured by verdict.
+#pragma once
+
+#include "core/gbuffer/gbuffer.h"
+#include "core/metrics/verdict_table.h"
+#include "harness/experiments/experiment.h"
+
+#include <vector>
+
+namespace hybray {
+
+// Writes pictures/SCENE_CAMERA_WIDTHxHEIGHT_ID.png below the run's folder. Grey: right HITs, as bright as the
+// reflected surface facing the ray; red: false HITs; blue: UNKNOWN; light blue: MISS; black: background. The
+// G-buffer must hold primitives and materials.
+void write_verdict_picture(const Point& point, const Workspace& workspace, const GBuffer& gbuffer,
+                           const Scene& scene, const RayStream& rays, const ssrm::MarchResults& results,
+                           const std::vector<metrics::HitClass>& classes);
+
+}  // namespace hybray

@@ -1,0 +1,52 @@
+// What a run lends to its experiments.
+#pragma once
+
+#include "core/scene/scene_library.h"
+#include "core/tracer/tracer.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace hybray {
+
+// The most recently used scene with its acceleration structures, built when first asked for and shared by the
+// points that follow.
+class Workspace {
+ public:
+  struct Settings {
+    ScenePaths scene_paths;
+    std::filesystem::path output;  // folder of the run; pictures go below it
+    uint64_t seed = 1;             // of the whole run
+    bool timing = true;            // false: time columns stay empty, nothing is repeated
+    int threads = 0;               // 0: all
+  };
+
+  explicit Workspace(Settings settings);
+  ~Workspace();
+  Workspace(const Workspace&) = delete;
+  Workspace& operator=(const Workspace&) = delete;
+
+  const Settings& settings() const { return settings_; }
+
+  // The scene of that name; throws what load_scene throws. References stay good until another scene is asked
+  // for.
+  const Scene& scene(const std::string& name);
+  const Tracer& tracer(const std::string& scene_name);         // the fast one, which is timed
+  const Tracer& robust_tracer(const std::string& scene_name);  // for buffers and for truth
+
+  // Work that a point did not need to do again: number of times a scene or an acceleration structure was
+  // there already.
+  uint64_t reused() const { return reused_; }
+
+ private:
+  const Tracer& built(std::unique_ptr<Tracer>& tracer, const std::string& scene_name, bool robust);
+
+  Settings settings_;
+  std::string scene_name_;  // of scene_
+  std::unique_ptr<Scene> scene_;
+  std::unique_ptr<Tracer> tracer_, robust_tracer_;
+  uint64_t reused_ = 0;
+};
+
+}  // namespace hybray

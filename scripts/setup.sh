@@ -1,0 +1,49 @@
+#!/usr/bin/env bash
+# Installs what hybray needs on Debian 12 or newer. Safe to run again: it installs only what is missing.
+#   scripts/setup.sh          what the build, the tests and the scripts need
+#   scripts/setup.sh --dev    clang-format too, for scripts/lint.sh
+set -euo pipefail
+
+packages=(
+  g++ cmake ninja-build pkg-config ccache git python3
+  libembree-dev libopenimageio-dev libglm-dev libtinygltf-dev nlohmann-json3-dev libvalijson-dev
+  libtbb-dev libcli11-dev libspdlog-dev libfmt-dev libxxhash-dev libgtest-dev libbenchmark-dev
+)
+case "${1:-}" in
+  "") ;;
+  --dev) packages+=(clang-format) ;;
+  *) sed -n '2,4p' "$0"; exit 2 ;;
+esac
+
+if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+  echo "setup: this system has no apt; install the equivalents of these Debian packages, then build with cmake --preset release:" >&2
+  printf '  %s\n' "${packages[@]}" >&2
+  exit 2
+fi
+
+missing=()
+for package in "${packages[@]}"; do
+  dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
+done
+if [ ${#missing[@]} -eq 0 ]; then
+  echo "setup: everything is installed already" >&2
+  exit 0
+fi
+
+echo "setup: installing ${missing[*]}" >&2
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo >/dev/null || { echo "setup: run it as root, or install sudo, to add: ${missing[*]}" >&2; exit 2; }
+  as_root=(sudo)
+fi
+export DEBIAN_FRONTEND=noninteractive
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+if ! { "${as_root[@]}" apt-get update -qq && "${as_root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}"; } >"$log" 2>&1; then
+  cat "$log" >&2
+  unknown=()
+  for package in "${missing[@]}"; do apt-cache show "$package" >/dev/null 2>&1 || unknown+=("$package"); done
+  [ ${#unknown[@]} -eq 0 ] || echo "setup: this system's package lists do not have: ${unknown[*]}" >&2
+  echo "setup: the installation failed (the packages are those of Debian 12)" >&2
+  exit 2
+fi

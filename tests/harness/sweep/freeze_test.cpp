@@ -1,0 +1,229 @@
+#include "harness/sweep/freeze.h"
+
+#include "core/base/error.h"
+#include "harness/sweep/memory.h"
+#include "harness/sweep/run_sweep.h"
+#include "tests/harness/support/temporary_folder.h"
+#include "tests/harness/support/toy_experiment.h"
+
+#include <set>
+
+#include <gtest/gtest.h>
+
+namespace hybray {
+namespace {
+
+class FreezeTest : public ::testing::Test {
+ protected:
+  FreezeTest()
+      : catalog_(
+            [this](const std::string& name) {
+              return states_.contains(name) ? states_[name] : SceneState::unknown;
+            },
+            [this](const std::string& name) {
+              if (!facts_.contains(name)) throw InputError(name, "there is no such scene");
+              ++loads_;
+              return facts_[name];
+            }) {}
+
+  Config load(const std::string& text, const std::vector<std::string>& assignments = {}) {
+    return load_config(folder_.write("c.json", text), experiments_, assignments);
+  }
+
+  FrozenSweep frozen(const std::string& text, const FreezeOptions& options = {}) {
+    config_ = load(text);
+    return freeze(config_, catalog_, options);
+  }
+
+  std::vector<std::string> labels(const std::string& text, const FreezeOptions& options = {}) {
+    std::vector<std::string> result;
+    const FrozenSweep sweep = frozen(text, options);
+    for (const Point& point : sweep.points) result.push_back(point_label(config_, point));
+    return result;
+  }
+
+  std::string problem(const std::string& text, const FreezeOptions& options = {}) {
+    std::string message = test::message_of<InputError>([&] { frozen(text, options); });
+    const std::string folder = folder_.path().string() + "/";
+    for (size_t at; (at = message.find(folder)) != std::string::npos;) message.erase(at, folder.size());
+    return message;
+  }
+
+  std::string id(const std::string& text) { return frozen(text).points.at(0).id; }
+
+  const test::TemporaryFolder folder_;
+  const std::vector<Experiment> experiments_ = test::toy_experiments();
+  std::map<std::string, SceneState> states_ = {
+      {"hall", SceneState::available}, {"yard", SceneState::available}, {"far", SceneState::source_missing}};
+  std::map<std::string, SceneFacts> facts_ = {{"hall", {11, 100, {"door", "window"}}},
+                                              {"yard", {12, 200, {"gate"}}}};
+  int loads_ = 0;
+  SceneCatalog catalog_;
+  Config config_;
+};
+
+using Labels = std::vector<std::string>;
+
+TEST_F(FreezeTest, VariesTheFirstKeyOfTheFileSlowest) {
+  EXPECT_EQ(labels(R"({"experiment": "toy", "sweep": {"count": [2, 1], "length": [1, 2]}})"),
+            (Labels{"count=2 length=1", "count=2 length=2", "count=1 length=1", "count=1 length=2"}));
+  EXPECT_EQ(labels(R"({"experiment": "toy", "sweep": {"length": [1, 2], "count": [2, 1]}})"),
+            (Labels{"length=1 count=2", "length=1 count=1", "length=2 count=2", "length=2 count=1"}));
+}
+
+TEST_F(FreezeTest, KeepsThePointsOfASceneTogether) {
+  facts_["yard"].cameras = {"door"};
+  const FrozenSweep sweep = frozen(R"({"experiment": "staged", "parameters": {"camera": "door"},
+    "sweep": {"count": [1, 2], "scene": ["yard", "hall"]}})");
+  Labels scenes;
+  for (const Point& point : sweep.points) scenes.push_back(point.text("scene"));
+  EXPECT_EQ(scenes, (Labels{"yard", "yard", "hall", "hall"}));
+}
+
+TEST_F(FreezeTest, PutsEveryCameraOfItsSceneInThePlaceOfAStar) {
+  EXPECT_EQ(
+      labels(
+          R"({"experiment": "staged", "sweep": {"scene": ["hall", "yard"], "camera": ["*"], "count": [1, 2]}})"),
+      (Labels{"scene=hall camera=door count=1", "scene=hall camera=door count=2",
+              "scene=hall camera=window count=1", "scene=hall camera=window count=2",
+              "scene=yard camera=gate count=1", "scene=yard camera=gate count=2"}));
+  EXPECT_EQ(
+      labels(R"({"experiment": "staged", "parameters": {"scene": "hall"}, "sweep": {"count": [1, 2]}})"),
+      (Labels{"count=1 camera=door", "count=2 camera=door", "count=1 camera=window",
+              "count=2 camera=window"}));
+}
+
+TEST_F(FreezeTest, GivesEveryPointEveryParameterAndAnIdOfItsOwn) {
+  const FrozenSweep sweep =
+      frozen(R"({"experiment": "staged", "parameters": {"count": 1}, "sweep": {"scene": ["hall", "yard"],
+    "length": [1, 2, 3], "loud": [false, true]}})");
+  ASSERT_EQ(sweep.points.size(), 18u);
+  std::set<std::string> ids;
+  for (const Point& point : sweep.points) {
+    EXPECT_EQ(point.parameters.size(), 7u);
+    EXPECT_EQ(point.id.size(), 16u);
+    EXPECT_EQ(point.id.find_first_not_of("0123456789abcdef"), std::string::npos);
+    ids.insert(point.id);
+  }
+  EXPECT_EQ(ids.size(), 18u);
+}
+
+TEST_F(FreezeTest, KeepsAnIdWhenTheFileSaysTheSameInOtherWords) {
+  const std::string base = id(R"({"experiment": "toy", "parameters": {"count": 1, "length": 2}})");
+  EXPECT_EQ(
+      id(R"({"title": "x", "parameters": {"length": 2.0, "count": 1, "loud": false}, "experiment": "toy"})"),
+      base);
+  EXPECT_EQ(id(R"({"experiment": "toy", "sweep": {"length": [2, 3]}, "parameters": {"count": 1}})"), base);
+  EXPECT_EQ(id(R"({"experiment": "toy", "seed": 1, "sweep": {"count": [1], "length": [2]}})"), base);
+}
+
+TEST_F(FreezeTest, ChangesTheIdWithAnyParameterTheSeedTheExperimentAndTheScene) {
+  std::set<std::string> ids;
+  for (const char* text :
+       {R"({"experiment": "toy", "parameters": {"count": 1}})",
+        R"({"experiment": "toy", "parameters": {"count": 2}})",
+        R"({"experiment": "toy", "parameters": {"count": 1, "length": 0.50000000000000011}})",
+        R"({"experiment": "toy", "parameters": {"count": 1, "loud": true}})",
+        R"({"experiment": "toy", "parameters": {"count": 1}, "seed": 2})"}) {
+    ids.insert(id(text));
+  }
+  const std::map<std::string, Value> same = {{"count", int64_t{1}}};
+  for (const char* experiment : {"toy", "staged"}) {
+    for (const uint64_t scene : {0, 1}) ids.insert(point_id(experiment, same, 1, scene));
+  }
+  EXPECT_EQ(ids.size(), 9u);
+}
+
+// Tables of different machines and days are joined by id, so it may not drift. The number is XXH3_64 of
+// {"experiment":"toy","parameters":{"a":1,"b":0.1,"c":"x","d":true},"scene":"0123456789abcdef","seed":1}.
+TEST_F(FreezeTest, KeepsItsIdsFromOneVersionToTheNext) {
+  const std::map<std::string, Value> parameters = {
+      {"b", 0.1}, {"a", int64_t{1}}, {"c", std::string("x")}, {"d", true}};
+  EXPECT_EQ(point_id("toy", parameters, 1, 0x0123456789abcdefull), "6b95a0572ce826e8");
+}
+
+TEST_F(FreezeTest, KeepsThePointsThatPassTheFilters) {
+  const std::string text = R"({"experiment": "toy", "sweep": {"count": [1, 2, 3], "length": [1, 2]}})";
+  EXPECT_EQ(labels(text, {{"count=2"}}), (Labels{"count=2 length=1", "count=2 length=2"}));
+  EXPECT_EQ(labels(text, {{"count=3", "length=1", "count=1"}}),
+            (Labels{"count=1 length=1", "count=3 length=1"}));
+  EXPECT_EQ(problem(text, {{"count=4"}}), "--filter count=4: no point of c.json matches");
+  EXPECT_EQ(problem(text, {{"cuont=4"}}),
+            "--filter cuont=4: unknown parameter \"cuont\"; did you mean \"count\"?");
+  EXPECT_EQ(problem(text, {{"count=0"}}), "--filter count=0: found 0; expected an integer from 1 to 9");
+}
+
+TEST_F(FreezeTest, FiltersTheCamerasThatAStarStandsFor) {
+  EXPECT_EQ(
+      labels(R"({"experiment": "staged", "parameters": {"count": 1}, "sweep": {"scene": ["hall", "yard"]}})",
+             {{"camera=window"}}),
+      Labels{"scene=hall camera=window"});
+}
+
+TEST_F(FreezeTest, LoadsNoSceneThatTheFiltersTakeOut) {
+  frozen(
+      R"({"experiment": "staged", "parameters": {"count": 1}, "sweep": {"scene": ["nowhere", "hall", "yard"]}})",
+      {{"scene=yard"}});
+  EXPECT_EQ(loads_, 1);
+}
+
+TEST_F(FreezeTest, LeavesOutOptionalScenesWithoutASourceAndCountsTheirPoints) {
+  const FrozenSweep sweep =
+      frozen(R"({"experiment": "staged", "sweep": {"scene": ["far", "yard"], "count": [1, 2]},
+    "optional_scenes": ["far"]})");
+  EXPECT_EQ(sweep.points.size(), 2u);
+  ASSERT_EQ(sweep.skipped.size(), 1u);
+  EXPECT_EQ(sweep.skipped[0].scene, "far");
+  EXPECT_EQ(sweep.skipped[0].points, 2u);
+  EXPECT_TRUE(sweep.skipped[0].for_each_camera);
+}
+
+TEST_F(FreezeTest, RefusesScenesAndCamerasThatAreNotThere) {
+  EXPECT_EQ(
+      problem(
+          R"({"experiment": "staged", "parameters": {"count": 1}, "sweep": {"scene": ["yard", "nowhere"]}})"),
+      "c.json:1:82 (/sweep/scene/1): nowhere: there is no such scene");
+  EXPECT_EQ(
+      problem(R"({"experiment": "staged", "parameters": {"count": 1, "scene": "hall", "camera": "widnow"}})"),
+      "c.json:1:80 (/parameters/camera): the scene \"hall\" has no camera \"widnow\"; did you mean "
+      "\"window\"?");
+  facts_["yard"].cameras.clear();
+  EXPECT_EQ(
+      problem(R"({"experiment": "staged", "parameters": {"count": 1, "scene": "yard", "camera": "*"}})"),
+      "c.json:1:80 (/parameters/camera): \"*\" stands for no camera: the scene \"yard\" has none");
+}
+
+TEST_F(FreezeTest, RefusesASceneWithTwoCamerasOfOneName) {
+  facts_["yard"].cameras = {"gate", "gate"};
+  EXPECT_EQ(problem(R"({"experiment": "staged", "parameters": {"count": 1, "scene": "yard"}})"),
+            "c.json: two points of the sweep are the same; has a scene two cameras of one name?");
+}
+
+TEST_F(FreezeTest, DoesNotTakeAMisspeltOptionalSceneForAMissingOne) {
+  EXPECT_EQ(
+      problem(
+          R"({"experiment": "staged", "parameters": {"count": 1, "scene": "nowhere"}, "optional_scenes": ["nowhere"]})"),
+      "c.json:1:62 (/parameters/scene): nowhere: there is no such scene");
+}
+
+TEST_F(FreezeTest, RefusesAPointThatNeedsMoreMemoryBeforeAnySceneIsLoaded) {
+  const std::string text = R"({"experiment": "staged", "parameters": {"scene": "hall", "count": 1},
+ "sweep": {"resolution": ["8x8", "1000x1000"]}})";
+  EXPECT_EQ(problem(text, {{}, 1e9}),
+            "c.json:2:34 (/sweep/resolution/1): the resolution \"1000x1000\" needs about 9.1 TiB of "
+            "memory; 954 MiB are available");
+  EXPECT_EQ(loads_, 0);
+  EXPECT_EQ(labels(text, {{"resolution=8x8"}, 1e9}).size(), 2u)
+      << "a point that is filtered out needs no memory";
+}
+
+TEST(Memory, IsThereAndReadsWell) {
+  EXPECT_GT(available_memory_bytes(), 1e6);
+  EXPECT_LT(available_memory_bytes(), 1e15);
+  EXPECT_EQ(format_bytes(0), "0 B");
+  EXPECT_EQ(format_bytes(1536), "1.5 KiB");
+  EXPECT_EQ(format_bytes(23.0 * 1024 * 1024 * 1024), "23 GiB");
+}
+
+}  // namespace
+}  // namespace hybray

@@ -1,0 +1,51 @@
+#include "harness/table/csv.h"
+
+#include "core/base/error.h"
+#include "tests/harness/support/temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+namespace hybray {
+namespace {
+
+using Cells = std::vector<std::string>;
+
+std::string problem(const std::string& text) {
+  return test::message_of<InputError>([&] { parse_csv(text, "t.csv"); });
+}
+
+TEST(Csv, QuotesOnlyCellsThatNeedIt) {
+  EXPECT_EQ(csv_line(Cells{"a", "", "b c", "1.5"}), "a,,b c,1.5\n");
+  EXPECT_EQ(csv_line(Cells{"a,b", "say \"no\"", "two\nlines", "cr\r"}),
+            "\"a,b\",\"say \"\"no\"\"\",\"two\nlines\",\"cr\r\"\n");
+}
+
+TEST(Csv, ReadsTheExamplesOfRfc4180) {
+  const CsvTable table = parse_csv("field_name,\"b\"\"b\"\r\n\"aaa\",\"b\r\nb\"\r\nzzz,\r\n", "t.csv");
+  EXPECT_EQ(table.header, (Cells{"field_name", "b\"b"}));
+  ASSERT_EQ(table.rows.size(), 2u);
+  EXPECT_EQ(table.rows[0], (Cells{"aaa", "b\r\nb"}));
+  EXPECT_EQ(table.rows[1], (Cells{"zzz", ""}));
+  EXPECT_EQ(table.column("b\"b"), 1);
+  EXPECT_EQ(table.column("c"), -1);
+}
+
+TEST(Csv, ReadsATableWithoutALastLineEnd) {
+  EXPECT_EQ(parse_csv("a,b\n1,2", "t.csv").rows, (std::vector<Cells>{{"1", "2"}}));
+}
+
+TEST(Csv, ReadsBackWhatItWrites) {
+  const Cells cells{"", "\"", "\"\"", ",", "\n", "\r\n", "plain", "a\"b,c\nd"};
+  EXPECT_EQ(parse_csv(csv_line(cells) + csv_line(cells), "t.csv").rows, std::vector<Cells>{cells});
+}
+
+TEST(Csv, NamesThePlaceOfWhatIsWrong) {
+  EXPECT_EQ(problem(""), "t.csv: the table is empty: not even a header is there");
+  EXPECT_EQ(problem("a,b\n1\n"), "t.csv:2: found 1 cells; expected 2, as in the header");
+  EXPECT_EQ(problem("a,b\n1,\"2\n"), "t.csv:3:1: the quote opened in line 2 is never closed");
+  EXPECT_EQ(problem("a,b\n\"1\"x,2\n"), "t.csv:2:4: expected a comma or the end of the line here");
+  EXPECT_EQ(problem("a,b\nx\"1\",2\n"), "t.csv:2:2: expected a comma or the end of the line here");
+}
+
+}  // namespace
+}  // namespace hybray
