@@ -16,7 +16,8 @@ struct Axis {
   Real origin, direction;
   int size;  // pixels of the screen along this axis
 
-  // Branches on the direction are kept on purpose: they predict well along a ray, while selecting by arithmetic made the walk wait for each division.
+  // Branches on the direction are kept on purpose: they predict well along a ray, while selecting by
+  // arithmetic made the walk wait for each division.
   bool forward() const { return direction > Real(0); }
   Real crossing(int border) const { return (static_cast<Real>(border) - origin) / direction; }
 
@@ -46,7 +47,9 @@ struct Axis {
   }
 };
 
-// A ray inside the screen: the pixel it is in from parameter `l` on.
+// A ray inside the screen, from parameter `l` on. On an axis whose border it has not crossed, a coarse walk
+// leaves the pixel where it was: still in the same cell, which is all that this level asks. `settle` finds
+// the exact pixel; it is due before a finer level, and level 0 never needs it.
 template <class Real>
 struct CellWalk {
   Axis<Real> x, y;
@@ -66,23 +69,24 @@ struct CellWalk {
     return {bx, by, x.crossing(bx), y.crossing(by)};
   }
 
-  // Steps into the next cell of `level`; false when that leaves the screen.
-  bool advance(const Exit& e, int level) {
+  // Steps through the borders of `e` that come first; false when that leaves the screen.
+  bool advance(const Exit& e) {
     l = e.l();
     bool inside = true;
     if (e.lx <= l) {
       px = x.pixel_after(e.border_x);
       inside = px >= 0 && px < x.size;
-    } else if (level > 0) {
-      px = x.pixel_at(px, l);
     }
     if (e.ly <= l) {
       py = y.pixel_after(e.border_y);
       inside = inside && py >= 0 && py < y.size;
-    } else if (level > 0) {
-      py = y.pixel_at(py, l);
     }
     return inside;
+  }
+
+  void settle() {
+    px = x.pixel_at(px, l);
+    py = y.pixel_at(py, l);
   }
 
   // The pixel that the ray was in just before parameter l, where it entered (px, py).

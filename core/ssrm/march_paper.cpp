@@ -25,7 +25,7 @@ Correction march_paper_ray(const DepthView& view, const ScreenRay<float>& ray, u
   CellWalk<float> walk(ray, view.width(), view.height(), origin.x, origin.y);
   const auto first_exit = walk.exit(0);
   if (ray.l_end <= first_exit.l()) return {ray.end, kNoPixel};
-  if (!walk.advance(first_exit, 0)) return {Verdict::offscreen, kNoPixel};
+  if (!walk.advance(first_exit)) return {Verdict::offscreen, kNoPixel};
 
   // Stage 2: march. A level up after an iteration without intersection, a level down to redo the cell where
   // there was one.
@@ -45,14 +45,16 @@ Correction march_paper_ray(const DepthView& view, const ScreenRay<float>& ray, u
         break;
       }
       if (ends) return {ray.end, kNoPixel};
-      if (!walk.advance(exit, level)) return {Verdict::offscreen, kNoPixel};
+      if (!walk.advance(exit)) return {Verdict::offscreen, kNoPixel};
     }
-    if (!intersects)
+    if (!intersects) {
       level = std::min(level + 1, top);
-    else if (level > 0)
+    } else if (level > 0) {
       --level;
-    else
+      walk.settle();
+    } else {
       break;
+    }
   }
 
   // Stage 3: correction with slanted planes.

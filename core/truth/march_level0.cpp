@@ -45,7 +45,7 @@ ssrm::Correction march_level0_ray(const ssrm::DepthView& view, const ssrm::Scree
       if (record(log, farthest, stored, magnitude) > 0) break;
     }
     if (ends) return {ray.end, ssrm::kNoPixel};
-    if (!walk.advance(exit, 0)) return {ssrm::Verdict::offscreen, ssrm::kNoPixel};
+    if (!walk.advance(exit)) return {ssrm::Verdict::offscreen, ssrm::kNoPixel};
   }
   const ssrm::ScreenRay<double> exact{ray.ox, ray.oy, ray.oz, ray.dx, ray.dy, ray.dz, ray.l_end, ray.end};
   return ssrm::correct(view, exact, {walk.px, walk.py}, walk.previous(), origin);

@@ -178,7 +178,7 @@ float luminance(const vec3& c) {
 std::vector<uint8_t> develop(const Image2D<vec3>& image) {
   double sum = 0.0;
   for (const vec3& c : image) sum += std::log(1e-3 + luminance(c));
-  const auto exposure = static_cast<float>(0.085 / std::exp(sum / static_cast<double>(image.size())));
+  const auto exposure = static_cast<float>(0.11 / std::exp(sum / static_cast<double>(image.size())));
   std::vector<uint8_t> rgb;
   for (const vec3& c : image)
     for (int k = 0; k < 3; ++k) {

@@ -49,8 +49,7 @@ struct Column {
 
 // One frozen point of a sweep: every parameter of the experiment has a value.
 struct Point {
-  std::string
-      id;  // 16 hexadecimal digits: hash of the experiment, the resolved parameters and the scene's bytes
+  std::string id;  // 16 hexadecimal digits: hash of the experiment, all parameters, the seed and the scene
   std::map<std::string, Value> parameters;
 
   bool boolean(const std::string& name) const { return std::get<bool>(parameters.at(name)); }

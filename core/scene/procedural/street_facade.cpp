@@ -148,7 +148,7 @@ void add_facade(Model& model, const Materials& m, const House& house) {
   const double sill = tall ? 0.3 : 0.85, height = tall ? 2.15 : 1.6;
   // Openings are cut once the level affords them; the wall is one quad before.
   const Lod cut = model.lod(key("openings", house.front.number));
-  const bool open = cut.wants(0.09);
+  const bool open = cut.wants(0.045);
   for (int storey = 0; storey < house.storeys && open; ++storey)
     for (int i = 0; i < style.bays; ++i) {
       const double x = style.margin + (i + 0.5) * bay, y = house.ground_floor + storey * style.storey + sill;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <functional>
+#include <ostream>
 
 #include <gtest/gtest.h>
 
@@ -144,6 +145,10 @@ struct ExternalScene {
   vec3 lower, upper;
   size_t cameras;
 };
+
+void PrintTo(const ExternalScene& scene, std::ostream* out) {
+  *out << scene.name;
+}
 
 class ExternalScenes : public ::testing::TestWithParam<ExternalScene> {};
 

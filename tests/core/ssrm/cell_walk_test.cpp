@@ -55,7 +55,7 @@ Pixels walked_pixels(const ScreenRay<float>& r, int start_x, int start_y) {
   do {
     pixels.emplace(walk.px, walk.py);
     EXPECT_LE(pixels.size(), static_cast<size_t>(kWidth + kHeight)) << "must end";
-  } while (walk.advance(walk.exit(0), 0));
+  } while (walk.advance(walk.exit(0)));
   return pixels;
 }
 
@@ -87,15 +87,16 @@ TEST(CellWalk, ACoarseWalkEntersExactlyThePixelsThatTheFineWalkIsInThere) {
     std::vector<State> fine;
     CellWalk<float> walk(ray, kWidth, kHeight, x, y);
     do fine.push_back({walk.px, walk.py, walk.l});
-    while (walk.advance(walk.exit(0), 0));
+    while (walk.advance(walk.exit(0)));
     for (int level : {1, 2, 4}) {
       CellWalk<float> coarse(ray, kWidth, kHeight, x, y);
       size_t at = 0;
       do {
+        coarse.settle();
         const State here{coarse.px, coarse.py, coarse.l};
         while (at < fine.size() && !(fine[at] == here)) ++at;
         ASSERT_LT(at, fine.size()) << "seed " << kSeed << " ray " << i << " level " << level;
-      } while (coarse.advance(coarse.exit(level), level));
+      } while (coarse.advance(coarse.exit(level)));
     }
   }
 }
@@ -106,7 +107,7 @@ TEST(CellWalk, ThePreviousPixelIsTheOneWalkedBefore) {
     CellWalk<float> walk(ray, kWidth, kHeight, std::min(kWidth - 1, static_cast<int>(ray.ox)),
                          std::min(kHeight - 1, static_cast<int>(ray.oy)));
     ivec2 before(walk.px, walk.py);
-    while (walk.advance(walk.exit(0), 0)) {
+    while (walk.advance(walk.exit(0))) {
       ASSERT_EQ(walk.previous(), before) << "seed " << kSeed << " ray " << i;
       before = {walk.px, walk.py};
     }

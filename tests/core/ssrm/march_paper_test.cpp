@@ -48,7 +48,8 @@ TEST(MarchPaper, EndsInEveryVerdictThatHasACause) {
   const Scene scene = test::triangle_soup(60, 1.5f, 2.0f, kSeed);
   const Tracer tracer(scene, {.robust = true});
   // A near plane amid the triangles, so that rays toward the viewer reach it before they leave the screen.
-  const View view(Camera{"c", vec3(0, 0, 3), vec3(0)}, {.width = 320, .height = 200, .near = 2.0}, scene.bounds);
+  const View view(Camera{"c", vec3(0, 0, 3), vec3(0)}, {.width = 320, .height = 200, .near = 2.0},
+                  scene.bounds);
   const test::MainView v(tracer, view);
   std::array<size_t, kVerdicts> counts{};
   const MarchResults results = v.march();
@@ -98,7 +99,8 @@ struct Size {
   int width, height;
 };
 constexpr Size kSizes[] = {{1280, 720}, {1919, 1079}, {333, 217}, {64, 1}, {1, 1}};
-constexpr size_t kCamerasAtFullSize = 2;  // an exhaustive march of the largest size takes seconds a camera; the others see the smaller sizes
+constexpr size_t kCamerasAtFullSize =
+    2;  // an exhaustive march of the largest size takes seconds a camera; the others see the smaller sizes
 
 class MarchPaperScenes : public testing::TestWithParam<const char*> {};
 

@@ -105,7 +105,8 @@ TEST(Tracer, AWatertightMeshIsHitByEveryRobustRayFromInside) {
       shared;  // vertices inside a side: those on the cube's edges belong to two sides that share no vertex
   for (const vec3& p : scene.positions)
     if ((std::abs(p.x) > 0.99f) + (std::abs(p.y) > 0.99f) + (std::abs(p.z) > 0.99f) == 1) shared.push_back(p);
-  ASSERT_EQ(shared.size(), 6u * 36u * 6u) << "six sides of 6 x 6 inner points, each once for every triangle around it";
+  ASSERT_EQ(shared.size(), 6u * 36u * 6u)
+      << "six sides of 6 x 6 inner points, each once for every triangle around it";
   for (size_t i = 0; i < rays.size(); ++i) {
     // Every second ray is aimed exactly at a shared vertex.
     const vec3 d = i % 2 ? glm::normalize(shared[i % shared.size()] - rays.origin(i)) : rays.direction(i);

@@ -6,6 +6,7 @@
 #include "tests/harness/support/temporary_folder.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include <gtest/gtest.h>
 
@@ -57,6 +58,24 @@ TEST_F(SsrmProgramTest, RepeatsItsMetricsBitForBitAtAnyThreadCount) {
     const auto c = static_cast<size_t>(one.column(column.name));
     for (size_t r = 0; r < one.rows.size(); ++r) EXPECT_EQ(one.rows[r][c], two.rows[r][c]) << column.name;
   }
+}
+
+TEST_F(SsrmProgramTest, MakesTheTablesOfThePaperFromItsCsv) {
+  folder_.write(
+      "small.json",
+      R"({"experiment": "ssrm", "parameters": {"scene": "sphere", "resolution": "1280x720", "repeats": 1, "level0_every": 0},
+          "sweep": {"camera": ["front"]}})");
+  ASSERT_EQ(hybray({"run", "small.json", "-o", "out"}).exit_code, kOk);
+  const CsvTable table = read_csv(folder_ / "out/small.csv");
+  const test::Outcome tables = test::run_process(
+      {"/usr/bin/python3", HYBRAY_PROJECT_DIR "/scripts/tables.py", (folder_ / "out/small.csv").string()});
+  ASSERT_EQ(tables.exit_code, 0) << tables.err;
+  for (const char* text : {"Table 1.", "Table 2.", "Table 3.", "1280x720", "0.212", "0.91", "1.083"})
+    EXPECT_NE(tables.out.find(text), std::string::npos) << text << "\n" << tables.out;
+  const double alpha = std::stod(table.rows.at(0).at(static_cast<size_t>(table.column("alpha"))));
+  char shown[16];
+  std::snprintf(shown, sizeof shown, "%.3f", alpha);
+  EXPECT_NE(tables.out.find(shown), std::string::npos) << tables.out;
 }
 
 TEST_F(SsrmProgramTest, RefusesASceneThatIsNotThere) {
