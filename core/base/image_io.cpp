@@ -24,6 +24,8 @@ void write_png(const std::filesystem::path& file, int width, int height, std::sp
   if (!output) fail(OIIO::geterror());
   OIIO::ImageSpec spec(width, height, 3, OIIO::TypeDesc::UINT8);
   spec.attribute("oiio:ColorSpace", "sRGB");
+  spec.attribute("png:compressionLevel",
+                 3);  // low: quick to write, and nobody keeps these pictures for their size
   if (!output->open(partial.string(), spec)) fail(output->geterror());
   if (!output->write_image(OIIO::TypeDesc::UINT8, rgb.data()) || !output->close()) fail(output->geterror());
   std::error_code error;

@@ -3,6 +3,8 @@
 #include "core/base/hash.h"
 
 #include <limits>
+#include <ostream>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -20,6 +22,9 @@ TEST(DepthPyramid, HasThePapersNumberOfLevels) {
 struct Size {
   int width, height;
 };
+void PrintTo(const Size& size, std::ostream* out) {
+  *out << size.width << "x" << size.height;
+}
 class DepthPyramidSizes : public testing::TestWithParam<Size> {};
 
 TEST_P(DepthPyramidSizes, EveryTexelHoldsTheNearestDepthOfThePixelsUnderIt) {

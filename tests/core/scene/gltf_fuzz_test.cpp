@@ -3,7 +3,7 @@
 #include "core/base/hash.h"
 #include "core/scene/gltf.h"
 #include "tests/core/scene/gltf_sample.h"
-#include "tests/core/scene/temp_folder.h"
+#include "tests/temporary_folder.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -50,7 +50,7 @@ std::string damaged(std::string bytes, uint32_t number) {
 }
 
 TEST(GltfFuzz, DamagedFilesLoadOrAreRefused) {
-  const TempFolder folder;
+  const test::TemporaryFolder folder;
   const std::string good = glb(rich_document(), sample_buffer());
   ASSERT_EQ(load_gltf(folder.write("good.glb", good)).triangle_count(), 2u);
   std::printf("seed %llu, %u cases\n", static_cast<unsigned long long>(kSeed), kCases);

@@ -3,7 +3,7 @@
 #include "core/base/error.h"
 #include "core/scene/gltf.h"
 #include "tests/core/scene/gltf_sample.h"
-#include "tests/core/scene/temp_folder.h"
+#include "tests/temporary_folder.h"
 
 #include <cmath>
 #include <functional>
@@ -46,7 +46,7 @@ class GltfHostile : public ::testing::Test {
     expect_refused(folder_.write("x.gltf", document.dump()), place, text);
   }
 
-  TempFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(GltfHostile, TheSampleItselfLoads) {

@@ -3,7 +3,7 @@
 #include "core/scene/gltf.h"
 
 #include "tests/core/scene/gltf_sample.h"
-#include "tests/core/scene/temp_folder.h"
+#include "tests/temporary_folder.h"
 
 #include <cmath>
 
@@ -21,7 +21,7 @@ class Gltf : public ::testing::Test {
     return load_gltf(folder_.write("x.gltf", document.dump()));
   }
 
-  TempFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 void expect_near(const vec3& found, const vec3& expected, float tolerance = 1e-6f) {

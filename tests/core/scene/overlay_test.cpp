@@ -3,7 +3,7 @@
 #include "core/base/error.h"
 #include "core/scene/shapes.h"
 #include "tests/core/scene/gltf_sample.h"
-#include "tests/core/scene/temp_folder.h"
+#include "tests/temporary_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -49,7 +49,7 @@ class Overlay : public ::testing::Test {
     expect_refused(overlay.dump(), place, message);
   }
 
-  TempFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 TEST_F(Overlay, TheSourceAndItsCameraAreThere) {

@@ -2,7 +2,7 @@
 
 #include "core/base/error.h"
 #include "tests/core/scene/gltf_sample.h"
-#include "tests/core/scene/temp_folder.h"
+#include "tests/temporary_folder.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -26,7 +26,7 @@ class SceneLibrary : public ::testing::Test {
     return {{folder_.path() / "scenes"}, {folder_.path() / "first", folder_.path() / "second"}};
   }
 
-  TempFolder folder_;
+  test::TemporaryFolder folder_;
 };
 
 std::string message_of(const std::function<void()>& call) {

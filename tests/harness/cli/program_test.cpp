@@ -2,7 +2,7 @@
 #include "harness/cli/commands.h"
 #include "harness/table/csv.h"
 #include "tests/harness/support/child_process.h"
-#include "tests/harness/support/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 #include <gtest/gtest.h>
 

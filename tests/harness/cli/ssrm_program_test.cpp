@@ -3,7 +3,7 @@
 #include "harness/config/schema.h"
 #include "harness/table/csv.h"
 #include "tests/harness/support/child_process.h"
-#include "tests/harness/support/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -2,8 +2,8 @@
 
 #include "core/base/error.h"
 #include "core/base/hash.h"
-#include "tests/harness/support/temporary_folder.h"
 #include "tests/harness/support/toy_experiment.h"
+#include "tests/temporary_folder.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include "core/base/error.h"
 #include "harness/experiments/resolution.h"
-#include "tests/harness/support/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 
 #include "harness/config/config_check.h"
 #include "harness/experiments/experiment.h"
-#include "tests/harness/support/temporary_folder.h"
 #include "tests/harness/support/toy_experiment.h"
+#include "tests/temporary_folder.h"
 
 #include <algorithm>
 

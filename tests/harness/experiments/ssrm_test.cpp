@@ -2,7 +2,7 @@
 #include "harness/experiments/ssrm.h"
 
 #include "harness/experiments/workspace.h"
-#include "tests/harness/support/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 #include <map>
 #include <set>

@@ -3,8 +3,8 @@
 #include "core/base/error.h"
 #include "harness/sweep/memory.h"
 #include "harness/sweep/run_sweep.h"
-#include "tests/harness/support/temporary_folder.h"
 #include "tests/harness/support/toy_experiment.h"
+#include "tests/temporary_folder.h"
 
 #include <set>
 

@@ -2,8 +2,8 @@
 
 #include "harness/sweep/manifest.h"
 #include "harness/table/csv.h"
-#include "tests/harness/support/temporary_folder.h"
 #include "tests/harness/support/toy_experiment.h"
+#include "tests/temporary_folder.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,7 @@
 #include "harness/table/files.h"
 
 #include "core/base/error.h"
-#include "tests/harness/support/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #include "harness/table/growing_table.h"
 
 #include "core/base/error.h"
-#include "tests/harness/support/temporary_folder.h"
+#include "tests/temporary_folder.h"
 
 #include <limits>
 
