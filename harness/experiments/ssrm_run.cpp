@@ -25,7 +25,6 @@ using ssrm::Verdict;
 // Everything that the stages of one point share.
 struct Setup {
   const Scene& scene;
-  const Tracer& tracer;
   const Tracer& robust;
   View view;
   unsigned bits;
@@ -54,7 +53,6 @@ Setup make_setup(const Point& point, Workspace& workspace) {
   if (!difference) bits |= kDepthDerivatives;
   if (point.boolean("picture")) bits |= kMaterial;
   return {scene,
-          workspace.tracer(name),
           workspace.robust_tracer(name),
           View(find_camera(scene, point.text("camera")), view, scene.bounds),
           bits,
@@ -122,17 +120,17 @@ void put_ratio(Row& row, const std::string& name, std::span<const double> numera
 }
 
 // All variants, interleaved. `rays` must not be empty.
-void add_times(Row& row, const Setup& setup, const GBuffer& gbuffer, DepthPyramid& pyramid,
-               const RayStream& rays, const ssrm::ScreenRays& screen_rays, ssrm::HybridBuffers& buffers,
-               int repeats, uint64_t seed) {
+void add_times(Row& row, const Setup& setup, const Tracer& tracer, const GBuffer& gbuffer,
+               DepthPyramid& pyramid, const RayStream& rays, const ssrm::ScreenRays& screen_rays,
+               ssrm::HybridBuffers& buffers, int repeats, uint64_t seed) {
   const ssrm::DepthView depth{pyramid, gbuffer.depth_derivatives, setup.view.depth_sign()};
   std::vector<uint32_t> all(rays.size()), unresolved;
   std::iota(all.begin(), all.end(), 0u);
   ssrm::compact_unresolved(buffers.results, unresolved);
   HitStream hits;
   hits.resize(rays.size());
-  const TraceMode mode = fastest_trace_mode(setup.tracer, rays, all, hits, seed);
-  const TraceMode mode_unresolved = fastest_trace_mode(setup.tracer, rays, unresolved, hits, seed);
+  const TraceMode mode = fastest_trace_mode(tracer, rays, all, hits, seed);
+  const TraceMode mode_unresolved = fastest_trace_mode(tracer, rays, unresolved, hits, seed);
   row["hw_mode"] = std::string(label(mode));
   row["hw_mode_unresolved"] = std::string(label(mode_unresolved));
   std::vector<uint32_t>().swap(all);
@@ -142,7 +140,7 @@ void add_times(Row& row, const Setup& setup, const GBuffer& gbuffer, DepthPyrami
   };
   const auto hybrid = [&](TraceMode m) {
     build_pyramid();
-    ssrm::trace_hybrid(setup.tracer, m, depth, rays, screen_rays, setup.march, buffers);
+    ssrm::trace_hybrid(tracer, m, depth, rays, screen_rays, setup.march, buffers);
   };
   enum {
     kGBuffer,
@@ -164,9 +162,9 @@ void add_times(Row& row, const Setup& setup, const GBuffer& gbuffer, DepthPyrami
       {"projection", [&] { ssrm::project_rays(rays, setup.view, setup.scene.bounds); }},
       {"compaction", [&] { ssrm::compact_unresolved(buffers.results, buffers.unresolved); }},
       {"t_ss", [&] { ssrm::march_paper(depth, screen_rays, rays.pixel, setup.march, buffers.results); }},
-      {"t_hw", [&] { setup.tracer.trace(rays, hits, mode); }},
-      {"t_hw_single", [&] { setup.tracer.trace(rays, hits, TraceMode::single); }},
-      {"t_unresolved", [&] { setup.tracer.trace_some(rays, unresolved, hits, mode_unresolved); }},
+      {"t_hw", [&] { tracer.trace(rays, hits, mode); }},
+      {"t_hw_single", [&] { tracer.trace(rays, hits, TraceMode::single); }},
+      {"t_unresolved", [&] { tracer.trace_some(rays, unresolved, hits, mode_unresolved); }},
       {"t_hybrid", [&] { hybrid(mode_unresolved); }},
       {"t_hybrid_single", [&] { hybrid(TraceMode::single); }},
   };
@@ -244,7 +242,7 @@ Row run(const Point& point, Workspace& workspace) {
   if (const int64_t stride = point.integer("level0_every"); stride > 0)
     add_level0(row, depth, screen_rays, rays.pixel, buffers.results, static_cast<size_t>(stride));
   if (workspace.settings().timing && rays.size() > 0)
-    add_times(row, setup, gbuffer, pyramid, rays, screen_rays, buffers,
+    add_times(row, setup, workspace.tracer(point.text("scene")), gbuffer, pyramid, rays, screen_rays, buffers,
               static_cast<int>(point.integer("repeats")), workspace.settings().seed);
   return row;
 }

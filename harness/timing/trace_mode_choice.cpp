@@ -12,7 +12,7 @@ namespace {
 constexpr size_t kBlock = 4096;  // neighbours stay together, or packets would look worse than they are
 constexpr size_t kSampleRays = size_t{1}
                                << 17;  // about 10 ms a mode: long against the clock, short against the run
-constexpr int kRepeats = 5;
+constexpr int kRepeats = 3;
 
 std::vector<uint32_t> sample_blocks(std::span<const uint32_t> which) {
   const size_t blocks = (which.size() + kBlock - 1) / kBlock, wanted = kSampleRays / kBlock;

@@ -45,7 +45,9 @@ TEST_F(SsrmTest, AlphaMissAndUnknownsSumToOneAndFalseHitsPartition) {
         number(row, "false_hit_fraction"), 1e-12);
     EXPECT_EQ(integer(row, "rays") + integer(row, "paths_skipped"), 160 * 90);
     EXPECT_GT(number(row, "alpha"), 0.1);
-    EXPECT_LE(number(row, "alpha"), number(row, "alpha_max") / number(row, "precision") + 0.02);
+    // A right HIT is on a surface that the screen shows; its exact point may still be hidden, along
+    // silhouettes, which are a few pixels in a hundred here.
+    EXPECT_LE(number(row, "alpha") * number(row, "precision"), number(row, "alpha_max") + 0.02);
   }
 }
 
