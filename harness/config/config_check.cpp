@@ -147,7 +147,8 @@ class Checker {
       const std::string item = child_pointer(pointer, i);
       if (!list[i].is_string()) {
         at_value(item, fmt::format("found {}; expected the name of a scene", found_text(list[i])));
-      } else if (std::find(scenes.begin(), scenes.end(), list[i]) == scenes.end()) {
+      } else if (std::find(scenes.begin(), scenes.end(), list[i].get_ref<const std::string&>()) ==
+                 scenes.end()) {
         at_value(item, fmt::format("{} is not among the scenes of this config", found_text(list[i])));
       } else if (std::find(list.begin(), list.begin() + i, list[i]) != list.begin() + i) {
         at_value(item, fmt::format("the value {} stands twice in this list", found_text(list[i])));
