@@ -17,6 +17,18 @@
 namespace hybray {
 namespace {
 
+// Index of a node's light, or -1. tinygltf before 2.9 leaves the extension as it is; later ones move it into
+// a member of its own.
+template <class Node>
+int light_of(const Node& node) {
+  if constexpr (requires { node.light; }) {
+    return node.light;
+  } else {
+    const auto extension = node.extensions.find("KHR_lights_punctual");
+    return extension == node.extensions.end() ? -1 : extension->second.Get("light").GetNumberAsInt();
+  }
+}
+
 // tinygltf turns the document into structs, and no more: it opens no file and sees neither buffers nor
 // images, so that a scene whose textures are missing or cannot be decoded still loads.
 tinygltf::Model parse_model(nlohmann::json document, const std::string& file) {
@@ -51,9 +63,8 @@ class Assembler {
     const tinygltf::Node& node = file_.model.nodes[placed.node];
     if (node.mesh >= 0) add_mesh(placed, node, static_cast<size_t>(node.mesh));
     if (node.camera >= 0) add_camera(placed, node, static_cast<size_t>(node.camera));
-    const auto light = node.extensions.find("KHR_lights_punctual");
-    if (light != node.extensions.end()) {
-      const auto index = static_cast<size_t>(light->second.Get("light").GetNumberAsInt());
+    if (const int light = light_of(node); light >= 0) {
+      const auto index = static_cast<size_t>(light);
       Light added = read_light(file_, index, placed.transform);
       added.name = first_name({node.name, file_.model.lights[index].name, fmt::format("light {}", index)});
       scene_.lights.push_back(added);

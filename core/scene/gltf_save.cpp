@@ -104,6 +104,17 @@ void add_node(tinygltf::Model& model, tinygltf::Node node, const std::string& na
   model.nodes.push_back(std::move(node));
 }
 
+// The counterpart of the loader's light_of.
+template <class Node>
+void set_light(Node& node, int index) {
+  if constexpr (requires { node.light; }) {
+    node.light = index;
+  } else {
+    node.extensions["KHR_lights_punctual"] =
+        tinygltf::Value(tinygltf::Value::Object{{"light", tinygltf::Value(index)}});
+  }
+}
+
 void add_light(tinygltf::Model& model, const Light& from) {
   tinygltf::Light to;
   to.name = from.name;
@@ -117,8 +128,7 @@ void add_light(tinygltf::Model& model, const Light& from) {
   to.spot.outerConeAngle = from.outer_cone_angle;
   tinygltf::Node node;
   node.matrix = looking(dvec3(from.position), dvec3(from.direction), dvec3(0.0, 1.0, 0.0));
-  node.extensions["KHR_lights_punctual"] = tinygltf::Value(
-      tinygltf::Value::Object{{"light", tinygltf::Value(static_cast<int>(model.lights.size()))}});
+  set_light(node, static_cast<int>(model.lights.size()));
   model.lights.push_back(to);
   add_node(model, node, from.name);
 }
