@@ -71,6 +71,8 @@ class PositionRecorder : public nlohmann::json_sax<nlohmann::json> {
     if (const size_t end = reason.find(": "); reason.starts_with("parse error") && end != std::string::npos) {
       reason.erase(0, end + 2);
     }
+    if (text_.empty())
+      reason = "the file is empty";  // in our words: the library's differ from version to version
     throw InputError(position(name_, text_, offset), "this is not JSON: " + reason);
   }
 
