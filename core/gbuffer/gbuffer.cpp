@@ -3,6 +3,7 @@
 #include "core/base/morton.h"
 #include "core/base/parallel.h"
 #include "core/gbuffer/triangle_plane.h"
+#include "core/scene/surface_point.h"
 
 #include <atomic>
 #include <cmath>
@@ -14,11 +15,11 @@ constexpr int kPacket = 16;  // rays of one packet: a 4x4 square, a quarter of a
 
 void store_pixel(GBuffer& g, const Scene& scene, int x, int y, const Hit& hit) {
   if (!g.primitive.empty()) g.primitive(x, y) = hit.primitive;
-  if (!g.material.empty()) g.material(x, y) = scene.triangle_material[hit.primitive];
+  if (!g.material.empty()) g.material(x, y) = scene.material_of(hit.primitive);
 
   if (!g.depth.empty() || !g.depth_derivatives.empty()) {
-    TrianglePlane plane = triangle_plane(g.view, scene, hit.primitive, x + 0.5, y + 0.5);
-    // A triangle seen edge-on has no usable plane; its pixel keeps the tracer's own distance and faces the
+    TrianglePlane plane = tangent_plane(g.view, scene, hit.primitive, x + 0.5, y + 0.5);
+    // A surface seen edge-on has no usable plane; its pixel keeps the tracer's own distance and faces the
     // viewer.
     if (!(plane.inverse_w > 0.0) || !std::isfinite(plane.inverse_w) || !std::isfinite(plane.slope_x) ||
         !std::isfinite(plane.slope_y))
@@ -30,6 +31,13 @@ void store_pixel(GBuffer& g, const Scene& scene, int x, int y, const Hit& hit) {
     if (!g.depth_derivatives.empty())
       g.depth_derivatives(x, y) =
           vec2(static_cast<float>(b * plane.slope_x), static_cast<float>(b * plane.slope_y));
+  }
+  if (scene.is_analytic(hit.primitive)) {
+    const dvec3 point = seen_point(g.view, scene, hit.primitive, x + 0.5, y + 0.5);
+    const vec3 n(geometric_normal(scene, hit.primitive, point));
+    if (!g.geometric_normal.empty()) g.geometric_normal(x, y) = n;
+    if (!g.shading_normal.empty()) g.shading_normal(x, y) = n;
+    return;
   }
   if (!g.geometric_normal.empty()) g.geometric_normal(x, y) = vec3(geometric_normal(scene, hit.primitive));
   if (!g.shading_normal.empty()) {

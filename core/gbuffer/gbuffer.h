@@ -31,9 +31,9 @@ struct GBuffer {
   Image2D<float> depth;             // device depth in [0, 1] at the pixel centre
   Image2D<vec2> depth_derivatives;  // change of device depth by one pixel to the right and down, of the plane
                                     // seen at the centre
-  Image2D<vec3> geometric_normal;   // unit, world space, on the triangle's front side
+  Image2D<vec3> geometric_normal;   // unit, world space, on the surface's front side
   Image2D<vec3> shading_normal;     // unit, world space, interpolated
-  Image2D<uint32_t> primitive;      // triangle number
+  Image2D<uint32_t> primitive;      // id in the scene
   Image2D<uint32_t> material;       // index into Scene::materials
   size_t covered_pixels = 0;        // pixels that see something
 

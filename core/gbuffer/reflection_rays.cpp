@@ -4,6 +4,7 @@
 #include "core/base/morton.h"
 #include "core/base/parallel.h"
 #include "core/gbuffer/triangle_plane.h"
+#include "core/scene/surface_point.h"
 
 #include <algorithm>
 #include <atomic>
@@ -16,20 +17,22 @@ double largest(const dvec3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-// Point of the triangle's plane at the centre of pixel (x, y); where the plane is edge-on, a vertex stands
-// in.
-dvec3 surface_point(const View& view, const Scene& scene, uint32_t triangle, int x, int y) {
-  const double inverse_w = triangle_plane(view, scene, triangle, x + 0.5, y + 0.5).inverse_w;
-  if (!(inverse_w > 0.0) || !std::isfinite(inverse_w))
-    return dvec3(scene.positions[scene.triangles[triangle].x]);
-  return view.eye() + view.ray_direction(x + 0.5, y + 0.5) / inverse_w;
+// What the rounding of an intersection with a primitive at point p grows with: the largest of the coordinates
+// of p and of its distances to the triangle's vertices, or the size of the analytic surface.
+double rounding_scale(const Scene& scene, uint32_t primitive, const dvec3& p) {
+  if (scene.is_analytic(primitive)) return std::max(largest(p), extent(scene.analytic_surface(primitive)));
+  double scale = largest(p);
+  const uvec3& tri = scene.triangles[primitive];
+  for (uint32_t v : {tri.x, tri.y, tri.z}) scale = std::max(scale, largest(dvec3(scene.positions[v]) - p));
+  return scale;
 }
 
 // Writes ray i; returns whether the geometric normal had to stand in for the shading normal.
 bool make_ray(const GBuffer& g, const Scene& scene, int x, int y, size_t i, RayStream& rays) {
-  const uint32_t triangle = g.primitive(x, y);
+  const uint32_t primitive = g.primitive(x, y);
   const dvec3 view_direction = glm::normalize(g.view.ray_direction(x + 0.5, y + 0.5));
-  dvec3 ng = geometric_normal(scene, triangle);
+  const dvec3 p = seen_point(g.view, scene, primitive, x + 0.5, y + 0.5);
+  dvec3 ng = geometric_normal(scene, primitive, p);
   dvec3 ns(g.shading_normal(x, y));
   if (glm::dot(ng, view_direction) > 0.0) ng = -ng, ns = -ns;
 
@@ -38,11 +41,7 @@ bool make_ray(const GBuffer& g, const Scene& scene, int x, int y, size_t i, RayS
   const bool wrong_side = glm::dot(view_direction, ns) >= 0.0 || glm::dot(direction, ng) <= 0.0;
   if (wrong_side) direction = mirror(ng);
 
-  const dvec3 p = surface_point(g.view, scene, triangle, x, y);
-  double scale = largest(p);
-  const uvec3& tri = scene.triangles[triangle];
-  for (uint32_t v : {tri.x, tri.y, tri.z}) scale = std::max(scale, largest(dvec3(scene.positions[v]) - p));
-  rays.set(i, vec3(p + ng * (scale * 0x1p-19)), vec3(glm::normalize(direction)),
+  rays.set(i, vec3(p + ng * (rounding_scale(scene, primitive, p) * 0x1p-19)), vec3(glm::normalize(direction)),
            static_cast<uint32_t>(y) * static_cast<uint32_t>(g.view.width()) + static_cast<uint32_t>(x));
   return wrong_side;
 }

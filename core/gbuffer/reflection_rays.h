@@ -16,7 +16,8 @@ struct ReflectionRays {
 // Needs the primitive and shading-normal buffers. Surfaces are two-sided: normals are turned to the viewer's
 // side by the geometric normal. Origins lie on the triangle's plane at the pixel centre, moved off it along
 // the geometric normal by 2^-19 of the largest of the point's coordinates and its distances to the triangle's
-// vertices, which is a few times the rounding of the intersection itself.
+// vertices (of the size of an analytic surface), which is a few times the rounding of the intersection
+// itself.
 ReflectionRays make_reflection_rays(const GBuffer& gbuffer, const Scene& scene);
 
 }  // namespace hybray

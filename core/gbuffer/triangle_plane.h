@@ -1,5 +1,5 @@
-// The plane of a triangle as the screen sees it: 1/w is affine in the pixel coordinates, so one value and two
-// slopes say it all.
+// The plane of a triangle, or the tangent plane of an analytic surface, as the screen sees it: 1/w is affine
+// in the pixel coordinates, so one value and two slopes say it all.
 #pragma once
 
 #include "core/gbuffer/view.h"
@@ -15,5 +15,13 @@ struct TrianglePlane {
 // Plane of `triangle` at screen point (px, py). From n . (w d) = n . (a - eye): 1/w = (n . d) / (n . (a -
 // eye)), d the ray direction of the point. Not finite, or not positive, where the plane is seen edge-on.
 TrianglePlane triangle_plane(const View& view, const Scene& scene, uint32_t triangle, double px, double py);
+
+// The same of any primitive: of an analytic surface, its tangent plane at the point seen through (px, py),
+// the first one beyond the near plane. Not finite where there is no such point.
+TrianglePlane tangent_plane(const View& view, const Scene& scene, uint32_t primitive, double px, double py);
+
+// The point of a primitive seen through (px, py). Where the primitive is seen edge-on, some point of it on
+// (or next to) that line of sight stands in: a vertex of a triangle.
+dvec3 seen_point(const View& view, const Scene& scene, uint32_t primitive, double px, double py);
 
 }  // namespace hybray

@@ -2,6 +2,7 @@
 
 #include "core/base/check.h"
 #include "core/base/parallel.h"
+#include "core/scene/surface_point.h"
 #include "core/ssrm/cell_walk.h"
 
 #include <algorithm>
@@ -63,7 +64,8 @@ VerdictTable judge(const ssrm::MarchResults& results, const ssrm::DepthView& dep
         const double true_t = truth.hits.t[i], error = std::abs(claimed - true_t);
         const dvec3 direction(rays.direction(i));
         const double footprint = view.view_depth(dvec3(rays.origin(i)) + claimed * direction) / view.focal();
-        const dvec3 normal = geometric_normal(scene, gbuffer.primitive[results.pixel[i]]);
+        const dvec3 normal = geometric_normal(scene, gbuffer.primitive[results.pixel[i]],
+                                              dvec3(rays.origin(i)) + claimed * direction);
         const double cosine = std::max(0.1, std::abs(glm::dot(normal, direction)));
         kind = error <= tolerance.footprint_factor * footprint / cosine ? HitClass::right
                : claimed < true_t                                       ? HitClass::early

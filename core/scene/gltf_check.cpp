@@ -66,6 +66,18 @@ constexpr std::array kPbr = {Field{"baseColorFactor", Kind::numbers, "", 4},
                              Field{"metallicFactor", Kind::number}, Field{"roughnessFactor", Kind::number}};
 constexpr std::array kIor = {Field{"ior", Kind::number}};
 constexpr std::array kTransmission = {Field{"transmissionFactor", Kind::number}};
+constexpr std::array kVolume = {Field{"thicknessFactor", Kind::number},
+                                Field{"attenuationDistance", Kind::number},
+                                Field{"attenuationColor", Kind::numbers, "", 3}};
+// What glTF has no words for; see gltf_properties.h.
+constexpr std::array kOurExtras = {
+    Field{"outer_ior", Kind::number},
+    Field{"absorption", Kind::numbers, "", 3},
+    Field{"outer_absorption", Kind::numbers, "", 3},
+    Field{"thin_walled", Kind::boolean},
+    Field{"conductor_eta", Kind::numbers, "", 3},
+    Field{"conductor_k", Kind::numbers, "", 3},
+};
 constexpr std::array kEmissiveStrength = {Field{"emissiveStrength", Kind::number}};
 constexpr std::array kCamera = {Field{"type", Kind::text, "", 0, kRequired}, Field{"name", Kind::text},
                                 Field{"perspective", Kind::object}, Field{"orthographic", Kind::object}};
@@ -86,9 +98,9 @@ constexpr std::array kNodeLight = {Field{"light", Kind::index, "lights", 0, kReq
 constexpr std::array kKnownExtensions = {
     "KHR_lights_punctual",   "KHR_materials_emissive_strength",
     "KHR_materials_ior",     "KHR_materials_transmission",
-    "KHR_mesh_quantization", "KHR_texture_transform",
-    "KHR_texture_basisu",    "EXT_texture_webp",
-    "EXT_texture_avif",
+    "KHR_materials_volume",  "KHR_mesh_quantization",
+    "KHR_texture_transform", "KHR_texture_basisu",
+    "EXT_texture_webp",      "EXT_texture_avif",
 };
 
 class Checker {
@@ -116,7 +128,9 @@ class Checker {
       check_part(material, at, "pbrMetallicRoughness", kPbr);
       check_extension(material, at, "KHR_materials_ior", kIor);
       check_extension(material, at, "KHR_materials_transmission", kTransmission);
+      check_extension(material, at, "KHR_materials_volume", kVolume);
       check_extension(material, at, "KHR_materials_emissive_strength", kEmissiveStrength);
+      check_our_extras(material, at);
     });
     check_array("cameras", kCamera, [this](const json& camera, const std::string& at) {
       check_part(camera, at, "perspective", kPerspective);
@@ -217,6 +231,16 @@ class Checker {
     if (extensions == owner.end()) return;
     if (!extensions->is_object()) fail(at + "/extensions", "not an object");
     check_part(*extensions, at + "/extensions", name, fields);
+  }
+
+  // Other programs' extras may hold anything; ours hold what we know, so that a misspelt key is not lost.
+  void check_our_extras(const json& material, const std::string& at) const {
+    const auto extras = material.find("extras");
+    if (extras == material.end() || !extras->is_object() || !extras->contains("hybray")) return;
+    check_part(*extras, at + "/extras", "hybray", kOurExtras);
+    for (const auto& [key, value] : (*extras)["hybray"].items())
+      if (std::none_of(kOurExtras.begin(), kOurExtras.end(), [&](const Field& f) { return f.key == key; }))
+        fail(at + "/extras/hybray/" + key, "unknown key");
   }
 
   void check_fields(const json& object, const std::string& at, std::span<const Field> fields) const {

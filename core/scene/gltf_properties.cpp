@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 #include <glm/trigonometric.hpp>
@@ -35,6 +36,56 @@ double extension_number(const tinygltf::ExtensionMap& extensions, const char* ex
   const auto found = extensions.find(extension);
   if (found == extensions.end() || !found->second.Has(key)) return otherwise;
   return found->second.Get(key).GetNumberAsDouble();
+}
+
+dvec3 vector_of(const tinygltf::Value& array) {
+  return {array.Get(0).GetNumberAsDouble(), array.Get(1).GetNumberAsDouble(),
+          array.Get(2).GetNumberAsDouble()};
+}
+
+vec3 not_negative(const dvec3& v, const std::string& where) {
+  return color({v.x, v.y, v.z}, kUnbounded, where);
+}
+
+// KHR_materials_volume, whose thickness makes a body of what is a sheet without it.
+void read_volume(const tinygltf::ExtensionMap& extensions, const std::string& at, Material& to) {
+  const auto found = extensions.find("KHR_materials_volume");
+  to.thin_walled = to.transmission > 0.0f;
+  if (found == extensions.end()) return;
+  const tinygltf::Value& volume = found->second;
+  const auto number = [&](const char* key, double otherwise) {
+    return volume.Has(key) ? volume.Get(key).GetNumberAsDouble() : otherwise;
+  };
+  if (in_range(number("thicknessFactor", 0.0), 0.0, kUnbounded, at + "/thicknessFactor") > 0.0f)
+    to.thin_walled = false;
+  // Black would absorb without bound; e^-69 of the light is as black as float can tell.
+  constexpr double kBlack = 1e-30;
+  const double distance = number("attenuationDistance", std::numeric_limits<double>::infinity());
+  if (!(distance > 0.0))
+    throw InputError(at + "/attenuationDistance", fmt::format("{} is not above 0", distance));
+  if (!volume.Has("attenuationColor")) return;
+  const dvec3 tint = vector_of(volume.Get("attenuationColor"));
+  dvec3 absorption;
+  for (int c = 0; c < 3; ++c) {
+    in_range(tint[c], 0.0, 1.0, at + "/attenuationColor");
+    absorption[c] = std::max(0.0, -std::log(std::max(tint[c], kBlack)) / distance);
+  }
+  to.absorption = not_negative(absorption, at);
+}
+
+void read_our_extras(const tinygltf::Value& extras, const std::string& at, Material& to) {
+  if (!extras.IsObject() || !extras.Has("hybray")) return;
+  const tinygltf::Value& ours = extras.Get("hybray");
+  if (ours.Has("outer_ior"))
+    to.outer_ior = in_range(ours.Get("outer_ior").GetNumberAsDouble(), 1.0, kUnbounded, at + "/outer_ior");
+  if (ours.Has("thin_walled")) to.thin_walled = ours.Get("thin_walled").Get<bool>();
+  const auto vector = [&](const char* key, vec3& target) {
+    if (ours.Has(key)) target = not_negative(vector_of(ours.Get(key)), at + "/" + key);
+  };
+  vector("absorption", to.absorption);
+  vector("outer_absorption", to.outer_absorption);
+  vector("conductor_eta", to.conductor_eta);
+  vector("conductor_k", to.conductor_k);
 }
 
 vec3 unit(const dvec3& v) {
@@ -72,6 +123,8 @@ Material read_material(const GltfFile& file, size_t index) {
   std::vector<double> emissive = from.emissiveFactor;
   for (double& e : emissive) e *= strength;
   to.emissive = color(emissive, kUnbounded, at + "/emissiveFactor");
+  read_volume(from.extensions, extensions + "/KHR_materials_volume", to);
+  read_our_extras(from.extras, at + "/extras/hybray", to);
   return to;
 }
 

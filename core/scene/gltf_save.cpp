@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include <fmt/format.h>
+#include <glm/exponential.hpp>
 #include <glm/trigonometric.hpp>
 #include <tiny_gltf.h>
 
@@ -70,6 +71,42 @@ tinygltf::Value number_object(const char* key, double value) {
   return tinygltf::Value(tinygltf::Value::Object{{key, tinygltf::Value(value)}});
 }
 
+tinygltf::Value vector_value(const dvec3& v) {
+  return tinygltf::Value(
+      tinygltf::Value::Array{tinygltf::Value(v.x), tinygltf::Value(v.y), tinygltf::Value(v.z)});
+}
+
+// A transmitting body in glTF's words, for other programs: how thick it is is the geometry's to say, and its
+// colour is given at the depth where the strongest absorption leaves 1/e.
+tinygltf::Value volume_object(const Material& from) {
+  tinygltf::Value::Object volume{{"thicknessFactor", tinygltf::Value(1.0)}};
+  const dvec3 absorption(from.absorption);
+  if (const double most = std::max({absorption.x, absorption.y, absorption.z}); most > 0.0) {
+    volume["attenuationDistance"] = tinygltf::Value(1.0 / most);
+    volume["attenuationColor"] = vector_value(glm::exp(-absorption / most));
+  }
+  return tinygltf::Value(volume);
+}
+
+// The counterpart of the loader's read_our_extras; what is at its default is left out. The absorption stands
+// here besides in the extension, which cannot say it to the last bit.
+tinygltf::Value our_extras(const Material& from) {
+  const Material standard;
+  tinygltf::Value::Object ours;
+  if (from.outer_ior != standard.outer_ior)
+    ours["outer_ior"] = tinygltf::Value(static_cast<double>(from.outer_ior));
+  if (from.thin_walled && from.transmission == 0.0f) ours["thin_walled"] = tinygltf::Value(true);
+  const auto vector = [&](const char* key, const vec3& value) {
+    if (value != vec3(0.0f)) ours[key] = vector_value(dvec3(value));
+  };
+  vector("absorption", from.absorption);
+  vector("outer_absorption", from.outer_absorption);
+  vector("conductor_eta", from.conductor_eta);
+  vector("conductor_k", from.conductor_k);
+  if (ours.empty()) return {};
+  return tinygltf::Value(tinygltf::Value::Object{{"hybray", tinygltf::Value(ours)}});
+}
+
 tinygltf::Material gltf_material(const Material& from) {
   tinygltf::Material to;
   to.name = from.name;
@@ -85,6 +122,9 @@ tinygltf::Material gltf_material(const Material& from) {
   to.extensions["KHR_materials_ior"] = number_object("ior", from.ior);
   if (from.transmission > 0.0f)
     to.extensions["KHR_materials_transmission"] = number_object("transmissionFactor", from.transmission);
+  if (from.transmission > 0.0f && !from.thin_walled)
+    to.extensions["KHR_materials_volume"] = volume_object(from);
+  to.extras = our_extras(from);
   return to;
 }
 
@@ -150,8 +190,8 @@ void add_camera(tinygltf::Model& model, const Camera& from) {
 
 void name_extensions(tinygltf::Model& model) {
   if (!model.lights.empty()) model.extensionsUsed.emplace_back("KHR_lights_punctual");
-  for (const char* name :
-       {"KHR_materials_emissive_strength", "KHR_materials_ior", "KHR_materials_transmission"})
+  for (const char* name : {"KHR_materials_emissive_strength", "KHR_materials_ior",
+                           "KHR_materials_transmission", "KHR_materials_volume"})
     if (std::any_of(model.materials.begin(), model.materials.end(),
                     [&](const tinygltf::Material& m) { return m.extensions.count(name) > 0; }))
       model.extensionsUsed.emplace_back(name);
@@ -182,6 +222,10 @@ tinygltf::Model gltf_model(const Scene& scene) {
 }  // namespace
 
 void save_gltf(const Scene& scene, const std::filesystem::path& file) {
+  if (!scene.analytic.empty())
+    throw InputError(file.string(),
+                     fmt::format("glTF has triangles only; the analytic surface '{}' of scene '{}' has none",
+                                 scene.analytic.front().name, scene.name));
   const tinygltf::Model model = gltf_model(scene);
   if (model.buffers[0].data.size() > 0xf0000000u)
     throw InputError(file.string(), "the scene does not fit into the 4 GiB that binary glTF allows");

@@ -94,6 +94,8 @@ void remove_materials(Scene& scene, const JsonObject& overlay) {
   for (const SceneObject& object : scene.objects)
     if (!removed[object.material])
       append_mesh(kept, object_mesh(scene, object), mat4(1.0f), object.material, object.name);
+  for (const AnalyticSurface& surface : scene.analytic)
+    if (!removed[surface.material]) append_analytic(kept, surface);
   scene = std::move(kept);
 }
 
@@ -231,7 +233,7 @@ Scene load_overlay(const std::filesystem::path& file, const LoadNamedGltf& load_
   add_lights(scene, overlay);
   add_objects(scene, overlay, file, load_named_gltf);
   add_cameras(scene, overlay);
-  if (scene.triangles.empty()) throw InputError(file.string(), "the scene has no triangles");
+  if (scene.primitive_count() == 0) throw InputError(file.string(), "the scene has no surfaces");
   update_content_hash(scene);
   return scene;
 }

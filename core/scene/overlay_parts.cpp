@@ -27,16 +27,24 @@ vec3 direction(const JsonObject& object, const char* key) {
 
 Material overlay_material(const json& value, const std::string& file, const std::string& pointer,
                           const Material& base) {
-  const JsonObject object(value, file, pointer,
-                          {"base_color", "metallic", "roughness", "transmission", "ior", "emissive"});
-  constexpr Range kUnit{0.0, 1.0};
+  const JsonObject object(
+      value, file, pointer,
+      {"base_color", "metallic", "roughness", "transmission", "ior", "outer_ior", "absorption",
+       "outer_absorption", "thin_walled", "conductor_eta", "conductor_k", "emissive"});
+  constexpr Range kUnit{0.0, 1.0}, kIndex{1.0, 100.0}, kNotNegative{0.0, kLargest};
   Material material = base;
   material.base_color = object.vector("base_color", base.base_color, kUnit);
   material.metallic = static_cast<float>(object.number("metallic", base.metallic, kUnit));
   material.roughness = static_cast<float>(object.number("roughness", base.roughness, kUnit));
   material.transmission = static_cast<float>(object.number("transmission", base.transmission, kUnit));
-  material.ior = static_cast<float>(object.number("ior", base.ior, {1.0, 100.0}));
-  material.emissive = object.vector("emissive", base.emissive, {0.0, kLargest});
+  material.ior = static_cast<float>(object.number("ior", base.ior, kIndex));
+  material.outer_ior = static_cast<float>(object.number("outer_ior", base.outer_ior, kIndex));
+  material.absorption = object.vector("absorption", base.absorption, kNotNegative);
+  material.outer_absorption = object.vector("outer_absorption", base.outer_absorption, kNotNegative);
+  material.thin_walled = object.boolean("thin_walled", base.thin_walled);
+  material.conductor_eta = object.vector("conductor_eta", base.conductor_eta, kNotNegative);
+  material.conductor_k = object.vector("conductor_k", base.conductor_k, kNotNegative);
+  material.emissive = object.vector("emissive", base.emissive, kNotNegative);
   return material;
 }
 

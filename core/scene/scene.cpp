@@ -78,6 +78,15 @@ void append_mesh(Scene& scene, const Mesh& source, const mat4& transform, uint32
   }
 }
 
+void append_analytic(Scene& scene, const AnalyticSurface& surface) {
+  HYBRAY_CHECK_LT(surface.material, scene.materials.size());
+  check_surface(surface);
+  scene.analytic.push_back(surface);
+  const Bounds3 box = bounds(surface);
+  scene.bounds.extend(box.lower);
+  scene.bounds.extend(box.upper);
+}
+
 Mesh object_mesh(const Scene& scene, const SceneObject& object) {
   Mesh mesh;
   if (object.triangle_count == 0) return mesh;
@@ -95,18 +104,22 @@ Mesh object_mesh(const Scene& scene, const SceneObject& object) {
 }
 
 void update_content_hash(Scene& scene) {
-  uint64_t h = hash_text("scene-1");
+  uint64_t h = hash_text("scene-2");
   h = hash_vector(scene.positions, h);
   h = hash_vector(scene.normals, h);
   h = hash_vector(scene.triangles, h);
   h = hash_vector(scene.triangle_material, h);
   for (const Material& m : scene.materials)
-    h = hash_values(h, m.base_color, m.metallic, m.roughness, m.transmission, m.ior, m.emissive);
+    h = hash_values(h, m.base_color, m.metallic, m.roughness, m.transmission, m.ior, m.outer_ior,
+                    m.absorption, m.outer_absorption, m.thin_walled, m.conductor_eta, m.conductor_k,
+                    m.emissive);
   for (const Light& l : scene.lights)
     h = hash_values(h, l.kind, l.position, l.direction, l.color, l.intensity, l.inner_cone_angle,
                     l.outer_cone_angle, l.range);
   for (const Camera& c : scene.cameras)
     h = hash_values(hash_text(c.name, h), c.eye, c.target, c.up, c.vertical_fov);
+  for (const AnalyticSurface& s : scene.analytic)
+    h = hash_values(h, s.material, s.kind, s.center, s.radius, s.y0, s.y1, s.focal_length);
   scene.content_hash = h;
 }
 

@@ -1,8 +1,9 @@
-// A scene, ready to be traced: all triangles in world space in one flat list, with materials, lights and
-// named cameras.
+// A scene, ready to be traced: all triangles in world space in one flat list, analytic surfaces beside them,
+// with materials, lights and named cameras.
 #pragma once
 
 #include "core/base/vec.h"
+#include "core/scene/analytic_surface.h"
 #include "core/scene/camera.h"
 #include "core/scene/light.h"
 #include "core/scene/material.h"
@@ -28,6 +29,7 @@ struct Scene {
   std::vector<uvec3> triangles;             // into positions; a triangle's number here is its primitive id
   std::vector<uint32_t> triangle_material;  // into materials, one a triangle
   std::vector<SceneObject> objects;         // cover all triangles in order
+  std::vector<AnalyticSurface> analytic;    // their primitive ids follow those of the triangles
   std::vector<Material> materials;
   std::vector<Light> lights;
   std::vector<Camera> cameras;
@@ -35,6 +37,16 @@ struct Scene {
   uint64_t content_hash = 0;  // of everything above: equal scenes give equal results
 
   size_t triangle_count() const { return triangles.size(); }
+  size_t primitive_count() const { return triangles.size() + analytic.size(); }
+
+  // Of a primitive id: whether it is an analytic surface, that surface, and the material of any primitive.
+  bool is_analytic(uint32_t primitive) const { return primitive >= triangles.size(); }
+  const AnalyticSurface& analytic_surface(uint32_t primitive) const {
+    return analytic[primitive - triangles.size()];
+  }
+  uint32_t material_of(uint32_t primitive) const {
+    return is_analytic(primitive) ? analytic_surface(primitive).material : triangle_material[primitive];
+  }
 };
 
 // `mesh` moved by `transform` (affine, with an inverse): computed in double, normals by the inverse
@@ -45,6 +57,9 @@ Mesh transformed(const Mesh& mesh, const dmat4& transform);
 // vertex that is not finite, must not be in it. Flat normals are made where it has none.
 void append_mesh(Scene& scene, const Mesh& mesh, const mat4& transform, uint32_t material,
                  const std::string& name);
+
+// Appends an analytic surface, whose material must be there. Throws as check_surface does.
+void append_analytic(Scene& scene, const AnalyticSurface& surface);
 
 // The triangles of one object as a mesh of its own, with the vertices that they use, in the scene's order.
 Mesh object_mesh(const Scene& scene, const SceneObject& object);

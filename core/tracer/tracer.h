@@ -1,5 +1,5 @@
-// The general ray tracer over Embree. One source file (tracer_embree.cpp) knows Embree's API; everything else
-// sees this header.
+// The general ray tracer over Embree. One source folder, this one, knows Embree's API; everything else sees
+// this header.
 #pragma once
 
 #include "core/base/ray_stream.h"
@@ -34,8 +34,8 @@ const char* label(TraceMode mode);
 // Nearest hit of one ray.
 struct Hit {
   float t = std::numeric_limits<float>::infinity();  // metres along the (unit) direction
-  uint32_t primitive = kNoPrimitive;                 // triangle number in the scene
-  float u = 0.0f, v = 0.0f;  // barycentric weights of the triangle's second and third vertex
+  uint32_t primitive = kNoPrimitive;                 // its id in the scene
+  float u = 0.0f, v = 0.0f;  // barycentric weights of a triangle's second and third vertex
   bool valid() const { return primitive != kNoPrimitive; }
 };
 
@@ -71,6 +71,11 @@ class Tracer {
   // `hits`.
   void trace_some(const RayStream& rays, std::span<const uint32_t> which, HitStream& hits,
                   TraceMode mode) const;
+
+  // Nearest hits of a batch of rays on the calling thread alone, for callers inside a parallel loop: the
+  // three spans have one length, directions unit length, and rays start at t = 0. Allocates nothing.
+  void intersect_batch(std::span<const vec3> origins, std::span<const vec3> directions, std::span<Hit> hits,
+                       TraceMode mode) const;
 
   // Nearest hits with t in [t_near, t_far] of `count` <= 16 rays from one common origin, as one coherent
   // packet (primary rays of a tile). Directions need not have unit length; t is in units of their length.

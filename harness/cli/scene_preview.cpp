@@ -1,9 +1,11 @@
 #include "harness/cli/scene_preview.h"
 
+#include "core/base/develop.h"
 #include "core/base/hash.h"
 #include "core/base/image2d.h"
 #include "core/base/image_io.h"
 #include "core/base/parallel.h"
+#include "core/scene/surface_point.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,19 +39,17 @@ struct Sampler {
 };
 
 Surface surface_at(const Scene& scene, const Hit& hit, const vec3& origin, const vec3& direction) {
-  const uvec3 tri = scene.triangles[hit.primitive];
-  const float w = 1.0f - hit.u - hit.v;
   Surface s;
   s.position = origin + hit.t * direction;
-  s.geometric = vec3(geometric_normal(scene, hit.primitive));
+  const SurfacePoint point = surface_point(scene, hit.primitive, hit.u, hit.v, dvec3(s.position));
+  s.geometric = vec3(point.geometric_normal);
   if (glm::dot(s.geometric, direction) > 0.0f) s.geometric = -s.geometric;
-  s.normal =
-      glm::normalize(w * scene.normals[tri.x] + hit.u * scene.normals[tri.y] + hit.v * scene.normals[tri.z]);
+  s.normal = vec3(point.shading_normal);
   if (glm::dot(s.normal, s.geometric) < 0.0f) s.normal = -s.normal;
   const float epsilon = 1e-4f * (1.0f + glm::length(s.position));
   s.offset_position = s.position + epsilon * s.geometric;
   s.through_position = s.position - epsilon * s.geometric;
-  s.material = &scene.materials[scene.triangle_material[hit.primitive]];
+  s.material = &scene.materials[point.material];
   return s;
 }
 
@@ -170,26 +170,6 @@ vec3 radiance(const Tracer& tracer, const vec3& origin, const vec3& direction, i
   return result;
 }
 
-float luminance(const vec3& c) {
-  return glm::dot(c, vec3(0.2126f, 0.7152f, 0.0722f));
-}
-
-// Exposes for the mean of the logarithms, applies a filmic curve (Narkowicz's fit of ACES), encodes as sRGB.
-std::vector<uint8_t> develop(const Image2D<vec3>& image) {
-  double sum = 0.0;
-  for (const vec3& c : image) sum += std::log(1e-3 + luminance(c));
-  const auto exposure = static_cast<float>(0.11 / std::exp(sum / static_cast<double>(image.size())));
-  std::vector<uint8_t> rgb;
-  for (const vec3& c : image)
-    for (int k = 0; k < 3; ++k) {
-      const float x = exposure * c[k];
-      const float y = std::min(x * (2.51f * x + 0.03f) / (x * (2.43f * x + 0.59f) + 0.14f), 1.0f);
-      const float encoded = y <= 0.0031308f ? 12.92f * y : 1.055f * std::pow(y, 1.0f / 2.4f) - 0.055f;
-      rgb.push_back(static_cast<uint8_t>(std::lround(255.0f * encoded)));
-    }
-  return rgb;
-}
-
 }  // namespace
 
 void render_preview(const Tracer& tracer, const Camera& camera, int width, int height,
@@ -208,7 +188,7 @@ void render_preview(const Tracer& tracer, const Camera& camera, int width, int h
       image[i] = radiance(tracer, camera.eye, glm::normalize(forward + sx * right + sy * up), 0, sampler);
     }
   });
-  write_png(png, width, height, develop(image));
+  write_png(png, width, height, develop(image, automatic_exposure(image)));
 }
 
 }  // namespace hybray

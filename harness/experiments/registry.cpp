@@ -1,10 +1,11 @@
 // Every experiment of this build, in one list.
+#include "harness/experiments/caustics.h"
 #include "harness/experiments/ssrm.h"
 
 namespace hybray {
 
 std::span<const Experiment> experiments() {
-  static const std::vector<Experiment> all = {ssrm_experiment()};
+  static const std::vector<Experiment> all = {ssrm_experiment(), caustics_experiment()};
   return all;
 }
 

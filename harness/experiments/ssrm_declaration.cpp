@@ -1,40 +1,10 @@
 // What `ssrm` can be asked and what it answers. Exact definitions of the metrics: docs/metrics.md.
+#include "harness/experiments/columns.h"
 #include "harness/experiments/resolution.h"
 #include "harness/experiments/ssrm.h"
 
 namespace hybray {
 namespace ssrm_parts {
-namespace {
-
-Column key(const char* name, const char* text, const char* unit = "") {
-  return {name, unit, ColumnKind::key, Better::none, text};
-}
-Column fraction(const char* name, Better better, const char* text) {
-  return {name, "1", ColumnKind::metric, better, text};
-}
-Column counted(const char* name, const char* text, const char* unit = "") {
-  return {name, unit, ColumnKind::count, Better::none, text};
-}
-
-// A time and, beside it, the spread of its repeats.
-void add_time(std::vector<Column>& columns, const std::string& stem, const std::string& text) {
-  columns.push_back(
-      {stem + "_ms", "ms", ColumnKind::time, Better::lower, text + "; median over the repeats"});
-  columns.push_back(
-      {stem + "_spread_ms", "ms", ColumnKind::time, Better::none, "interquartile range of " + stem + "_ms"});
-}
-
-// A ratio of times with its 95 % bootstrap interval.
-void add_ratio(std::vector<Column>& columns, const std::string& name, const std::string& text) {
-  columns.push_back({name, "1", ColumnKind::time, Better::higher, text + "; median of the paired ratios"});
-  columns.push_back(
-      {name + "_low", "1", ColumnKind::time, Better::none, "lower end of the 95 % interval of " + name});
-  columns.push_back(
-      {name + "_high", "1", ColumnKind::time, Better::none, "upper end of the 95 % interval of " + name});
-}
-
-}  // namespace
-
 std::vector<Parameter> parameters() {
   using enum ParameterType;
   const auto none = std::monostate{};
@@ -108,6 +78,7 @@ std::vector<Parameter> parameters() {
 }
 
 std::vector<Column> columns() {
+  using namespace column;
   using enum Better;
   std::vector<Column> c{
       key("scene", "scene"),

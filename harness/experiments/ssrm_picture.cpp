@@ -1,6 +1,8 @@
 #include "harness/experiments/ssrm_picture.h"
 
 #include "core/base/image_io.h"
+#include "core/gbuffer/triangle_plane.h"
+#include "core/scene/surface_point.h"
 #include "harness/experiments/workspace.h"
 
 #include <algorithm>
@@ -17,7 +19,11 @@ constexpr Rgb kUnknown{40, 70, 200}, kMiss{150, 190, 240}, kFalseHit{220, 30, 30
 Rgb reflected_grey(const GBuffer& g, const Scene& scene, uint32_t pixel, const vec3& direction) {
   const vec3 color = scene.materials[g.material[pixel]].base_color;
   const double luminance = 0.2126 * color.x + 0.7152 * color.y + 0.0722 * color.z;
-  const double cosine = std::abs(glm::dot(geometric_normal(scene, g.primitive[pixel]), dvec3(direction)));
+  const auto x = pixel % static_cast<uint32_t>(g.view.width()),
+             y = pixel / static_cast<uint32_t>(g.view.width());
+  const dvec3 point = seen_point(g.view, scene, g.primitive[pixel], x + 0.5, y + 0.5);
+  const double cosine =
+      std::abs(glm::dot(geometric_normal(scene, g.primitive[pixel], point), dvec3(direction)));
   const double linear = std::clamp(luminance * (0.15 + 0.85 * cosine), 0.0, 1.0);
   const auto grey = static_cast<uint8_t>(std::lround(40.0 + 215.0 * std::pow(linear, 1.0 / 2.2)));
   return {grey, grey, grey};

@@ -5,6 +5,7 @@
 #include "core/metrics/verdict_table.h"
 #include "core/ssrm/hybrid.h"
 #include "core/truth/march_level0.h"
+#include "harness/experiments/cells.h"
 #include "harness/experiments/resolution.h"
 #include "harness/experiments/ssrm.h"
 #include "harness/experiments/ssrm_picture.h"
@@ -60,12 +61,6 @@ Setup make_setup(const Point& point, Workspace& workspace) {
           {static_cast<uint64_t>(point.integer("step_budget"))}};
 }
 
-// A fraction, or an empty cell where there is nothing to take it of.
-Value share(uint64_t part, uint64_t whole) {
-  if (whole == 0) return std::monostate{};
-  return static_cast<double>(part) / static_cast<double>(whole);
-}
-
 void add_verdicts(Row& row, const metrics::VerdictTable& t) {
   const auto of_rays = [&](Verdict v) { return share(t.count(v), t.rays); };
   row["rays"] = static_cast<int64_t>(t.rays);
@@ -104,19 +99,6 @@ void add_level0(Row& row, const ssrm::DepthView& depth, const ssrm::ScreenRays& 
   }
   row["level0_disagreement_fraction"] = share(differ, exact.size());
   if (differ > 0 && std::isfinite(margin)) row["level0_margin_ulp"] = margin;
-}
-
-void put_time(Row& row, const std::string& stem, std::span<const double> ms) {
-  row[stem + "_ms"] = metrics::median(ms);
-  row[stem + "_spread_ms"] = metrics::spread(ms);
-}
-
-void put_ratio(Row& row, const std::string& name, std::span<const double> numerator,
-               std::span<const double> denominator, uint64_t seed) {
-  const metrics::Interval r = metrics::median_ratio(numerator, denominator, seed);
-  row[name] = r.value;
-  row[name + "_low"] = r.low;
-  row[name + "_high"] = r.high;
 }
 
 // All variants, interleaved. `rays` must not be empty.

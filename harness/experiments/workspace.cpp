@@ -14,6 +14,7 @@ const Scene& Workspace::scene(const std::string& name) {
     return *scene_;
   }
   // The old scene goes first, so that no two are in memory at once.
+  shared_.clear();
   tracer_.reset();
   robust_tracer_.reset();
   scene_.reset();

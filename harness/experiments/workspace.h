@@ -5,6 +5,8 @@
 #include "core/tracer/tracer.h"
 
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -35,8 +37,24 @@ class Workspace {
   const Tracer& tracer(const std::string& scene_name);         // the fast one, which is timed
   const Tracer& robust_tracer(const std::string& scene_name);  // for buffers and for truth
 
-  // Work that a point did not need to do again: number of times a scene or an acceleration structure was
-  // there already.
+  // What `make` returns, made once for each key and scene and shared by the points that follow: prepared
+  // scenes, references. `key` must say all that the result depends on besides the scene. Good until another
+  // scene is asked for.
+  template <class T>
+  const T& shared(const std::string& scene_name, const std::string& key,
+                  const std::function<std::shared_ptr<T>()>& make) {
+    scene(scene_name);
+    if (const auto found = shared_.find(key); found != shared_.end()) {
+      ++reused_;
+      return *static_cast<const T*>(found->second.get());
+    }
+    std::shared_ptr<T> made = make();
+    shared_[key] = made;
+    return *made;
+  }
+
+  // Work that a point did not need to do again: number of times a scene, an acceleration structure or
+  // something shared was there already.
   uint64_t reused() const { return reused_; }
 
  private:
@@ -46,6 +64,7 @@ class Workspace {
   std::string scene_name_;  // of scene_
   std::unique_ptr<Scene> scene_;
   std::unique_ptr<Tracer> tracer_, robust_tracer_;
+  std::map<std::string, std::shared_ptr<void>> shared_;  // by key
   uint64_t reused_ = 0;
 };
 

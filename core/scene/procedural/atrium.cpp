@@ -59,7 +59,13 @@ Materials make_materials(Model& model) {
   m.terracotta = matte("terracotta", {0.45f, 0.19f, 0.10f}, 0.8f);
   m.soil = matte("soil", {0.07f, 0.045f, 0.03f}, 1.0f);
   m.leaf = matte("leaf", {0.09f, 0.21f, 0.05f}, 0.5f);
-  m.water = clear("water", {0.9f, 0.97f, 0.97f}, 1.33f);
+  // The fountain's water is a surface without a bottom of its own: a sheet.
+  m.water = model.material({.name = "water",
+                            .base_color = vec3(0.9f, 0.97f, 0.97f),
+                            .roughness = 0.0f,
+                            .transmission = 1.0f,
+                            .ior = 1.33f,
+                            .thin_walled = true});
   m.glass = clear("glass", {0.96f, 0.98f, 0.97f}, 1.5f);
   m.mirror = metal("mirror", {0.93f, 0.93f, 0.92f}, 0.02f);
   m.flame = model.material({.name = "flame", .base_color = vec3(0.0f), .emissive = vec3(14.0f, 8.0f, 3.0f)});
@@ -69,12 +75,7 @@ Materials make_materials(Model& model) {
   return m;
 }
 
-}  // namespace atrium_parts
-
-namespace {
-
-void layout(Model& model) {
-  using namespace atrium_parts;
+void add_hall(Model& model) {
   const Materials m = make_materials(model);
   add_shell(model, m);
   add_arcades(model, m);
@@ -83,16 +84,24 @@ void layout(Model& model) {
   add_drapes(model, m);
   add_ornaments(model, m);
   add_furniture(model, m);
-  model.light({.name = "sun",
-               .kind = LightKind::directional,
-               .direction = glm::normalize(vec3(0.36f, -1.0f, 0.3f)),
-               .color = vec3(1.0f, 0.93f, 0.82f),
-               .intensity = 10.0f});
   model.camera("nave", {-10.0f, 1.65f, 1.4f}, {4.0f, 2.9f, -0.7f}, 65.0f);
   model.camera("drape", {-2.6f, 1.6f, 1.9f}, {-5.6f, 1.9f, -4.8f}, 65.0f);
   model.camera("aisle", {-12.9f, 1.6f, 6.9f}, {2.0f, 1.9f, 6.3f}, 70.0f);
   model.camera("gallery", {-8.4f, 7.25f, -6.9f}, {2.2f, 6.3f, 4.8f}, 70.0f);
   model.camera("fountain", {3.6f, 1.6f, 2.5f}, {-1.2f, 0.9f, -0.7f}, 65.0f);
+}
+
+}  // namespace atrium_parts
+
+namespace {
+
+void layout(Model& model) {
+  atrium_parts::add_hall(model);
+  model.light({.name = "sun",
+               .kind = LightKind::directional,
+               .direction = glm::normalize(vec3(0.36f, -1.0f, 0.3f)),
+               .color = vec3(1.0f, 0.93f, 0.82f),
+               .intensity = 10.0f});
 }
 
 }  // namespace

@@ -42,4 +42,7 @@ void add_drapes(Model& model, const Materials& materials);
 void add_ornaments(Model& model, const Materials& materials);  // lion heads, rosettes, mouldings of arches
 void add_furniture(Model& model, const Materials& materials);  // fountain, pots, pedestals, lamps, benches
 
+// All of the above with its materials, lanterns and cameras.
+void add_hall(Model& model);
+
 }  // namespace hybray::procedural::atrium_parts

@@ -18,9 +18,10 @@ struct Parameters {
 
 struct Generator {
   const char* name;
-  const char* text;            // one line of what it shows
-  uint32_t default_triangles;  // 1,024 (sphere), 2^18 (atrium), 2^20 (street)
+  const char* text;  // one line of what it shows
+  uint32_t default_triangles;
   Scene (*generate)(const Parameters&);
+  bool exact = false;  // has one form only, which no parameter changes
 };
 
 // All generators, by name.
@@ -29,5 +30,15 @@ std::span<const Generator> generators();
 Scene sphere(const Parameters& parameters);
 Scene atrium(const Parameters& parameters);
 Scene street(const Parameters& parameters);
+
+// Scenes made for caustics: matte ground that light through glass and water, or off metal, is thrown on. All
+// bodies close.
+Scene atrium_lamps(const Parameters& parameters);
+Scene glass_ball(const Parameters& parameters);
+Scene metal_ring(const Parameters& parameters);
+Scene mirror_and_floor(const Parameters& parameters);
+Scene prism(const Parameters& parameters);
+Scene water_pool(const Parameters& parameters);
+Scene wine_glass(const Parameters& parameters);
 
 }  // namespace hybray::procedural

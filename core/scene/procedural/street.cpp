@@ -56,6 +56,11 @@ Materials make_materials(Model& model) {
   m.terracotta = matte("terracotta", {0.46f, 0.19f, 0.10f});
   m.soil = matte("soil", {0.07f, 0.045f, 0.03f});
   m.canvas = matte("canvas", {0.66f, 0.60f, 0.48f}, 0.9f);
+  m.sheet = model.material({.name = "sheet",
+                            .base_color = vec3(0.97f, 0.98f, 0.98f),
+                            .roughness = 0.0f,
+                            .transmission = 1.0f,
+                            .thin_walled = true});
   m.bulb = glow("bulb", vec3(0.0f), {10.0f, 6.5f, 3.0f}, 1.0f);
   return m;
 }

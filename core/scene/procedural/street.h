@@ -18,7 +18,8 @@ struct Materials {
   std::array<uint32_t, 6> plaster;
   std::array<uint32_t, 4> shutter, fabric, paint;
   uint32_t stone, dark_stone, asphalt, kerb, slate, zinc, white_wood, wood, iron, steel, chrome, brass, pane,
-      lit_pane, glass, wine, ceramic, rubber, leaf, dark_leaf, flower, bark, terracotta, soil, canvas, bulb;
+      lit_pane, glass, wine, ceramic, rubber, leaf, dark_leaf, flower, bark, terracotta, soil, canvas, bulb,
+      sheet;
 };
 Materials make_materials(Model& model);
 

@@ -54,7 +54,7 @@ void add_lamp(Model& model, const Materials& m, const dvec3& at, double yaw, uin
     bulb.set_frame(head);
     ball(bulb, {0, 3.42, 0}, 0.055, lod.segments(14, 5), lod.segments(10, 3));
     model.add(std::move(post), m.iron, "street_lamp", frame);
-    if (lod.wants(0.2)) model.add(std::move(lantern), m.glass, "lamp_glass", frame);
+    if (lod.wants(0.2)) model.add(std::move(lantern), m.sheet, "lamp_glass", frame);
     model.add(std::move(bulb), m.bulb, "lamp_bulb", frame);
   }
   const dvec4 bulb_at = frame * dvec4(0, 3.3, 0.98, 1);

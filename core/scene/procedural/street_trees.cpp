@@ -74,7 +74,7 @@ void add_fountain(Model& model, const Materials& m, const dvec3& at) {
   });
   model.add(std::move(stone), m.stone, "fountain", moved(at));
   model.add(std::move(figure), m.chrome, "fountain_ball", moved(at));
-  model.add(std::move(water), m.glass, "fountain_water", moved(at));
+  model.add(std::move(water), m.sheet, "fountain_water", moved(at));
 }
 
 }  // namespace

@@ -301,6 +301,44 @@ TEST_F(GltfHostile, FactorsOutOfRangeAreRefused) {
   });
 }
 
+TEST_F(GltfHostile, VolumesThatCannotBeAreRefused) {
+  const auto refuse_volume = [&](const char* key, const json& value, const std::string& message) {
+    refuse(std::string("/KHR_materials_volume"), message, [&](json& d) {
+      json& extensions = d["materials"][0]["extensions"];
+      extensions["KHR_materials_transmission"]["transmissionFactor"] = 1.0;
+      extensions["KHR_materials_volume"] = {{"thicknessFactor", 1.0}, {"attenuationColor", {0.5, 0.5, 0.5}}};
+      extensions["KHR_materials_volume"][key] = value;
+    });
+  };
+  refuse_volume("thicknessFactor", -1.0, "below 0");
+  refuse_volume("thicknessFactor", "thick", "not a number");
+  refuse_volume("attenuationDistance", 0.0, "not above 0");
+  refuse_volume("attenuationDistance", -2.0, "not above 0");
+  refuse_volume("attenuationDistance", 1e-300, "not finite");
+  refuse_volume("attenuationColor", json::array({0.5, 1.5, 0.5}), "not between 0 and 1");
+  refuse_volume("attenuationColor", json::array({0.5, -0.5, 0.5}), "not between 0 and 1");
+  refuse_volume("attenuationColor", json::array({0.5, 0.5}), "array of 3 numbers");
+}
+
+TEST_F(GltfHostile, ExtrasOfOursThatCannotBeAreRefused) {
+  const auto refuse_extra = [&](const char* key, const json& value, const std::string& message) {
+    refuse(std::string("/materials/0/extras/hybray/") + key, message,
+           [&](json& d) { d["materials"][0]["extras"]["hybray"][key] = value; });
+  };
+  refuse_extra("outer_ior", 0.5, "below 1");
+  refuse_extra("outer_ior", 1e300, "below 1 or not finite");
+  refuse_extra("outer_ior", nullptr, "not a number");
+  refuse_extra("absorption", json::array({1, 2}), "array of 3 numbers");
+  refuse_extra("absorption", json::array({1, -2, 3}), "below 0");
+  refuse_extra("outer_absorption", json::array({1, 1e300, 3}), "not finite");
+  refuse_extra("thin_walled", 1, "true or false");
+  refuse_extra("conductor_eta", "gold", "array of 3 numbers");
+  refuse_extra("conductor_k", json::array({-1, 0, 0}), "below 0");
+  refuse_extra("colour", 1, "unknown key");
+  refuse("/materials/0/extras/hybray", "not an object",
+         [](json& d) { d["materials"][0]["extras"]["hybray"] = 3; });
+}
+
 TEST_F(GltfHostile, BinaryFilesWithWrongLengthsAreRefused) {
   const std::string good = glb(sample_document("").dump(), sample_buffer());
   EXPECT_EQ(load_gltf(folder_.write("x.glb", good)).triangle_count(), 2u);

@@ -234,6 +234,51 @@ TEST_F(Gltf, MaterialExtensionsAndDefaultsAreRead) {
   EXPECT_EQ(scene.materials[1].transmission, 0.0f);
 }
 
+TEST_F(Gltf, AVolumeMakesABodyAndItsColourAtADistanceTheAbsorption) {
+  json document = sample_document();
+  json& extensions = document["materials"][0]["extensions"];
+  extensions["KHR_materials_transmission"] = {{"transmissionFactor", 1.0}};
+  EXPECT_TRUE(load(document).materials[0].thin_walled);
+  extensions["KHR_materials_volume"] = {{"attenuationColor", {0.5, 1.0, 0.25}}, {"attenuationDistance", 2.0}};
+  const Material sheet = load(document).materials[0];
+  EXPECT_TRUE(sheet.thin_walled);
+  // Half at 2 m: ln 2 / 2 per metre.
+  EXPECT_NEAR(sheet.absorption.x, 0.34657359, 1e-7);
+  EXPECT_EQ(sheet.absorption.y, 0.0f);
+  EXPECT_NEAR(sheet.absorption.z, 0.69314718, 1e-7);
+  extensions["KHR_materials_volume"]["thicknessFactor"] = 0.001;
+  EXPECT_FALSE(load(document).materials[0].thin_walled);
+  extensions["KHR_materials_volume"].erase("attenuationDistance");
+  EXPECT_EQ(load(document).materials[0].absorption, vec3(0.0f));
+  extensions["KHR_materials_volume"]["attenuationColor"] = {0, 0, 0};
+  extensions["KHR_materials_volume"]["attenuationDistance"] = 1.0;
+  const Material black = load(document).materials[0];
+  EXPECT_TRUE(std::isfinite(black.absorption.x));
+  EXPECT_EQ(static_cast<float>(1.0 + std::exp(-black.absorption.x)), 1.0f);
+}
+
+TEST_F(Gltf, AMaterialThatDoesNotTransmitInItsFileIsNoSheet) {
+  EXPECT_FALSE(load(sample_document()).materials[0].thin_walled);
+}
+
+TEST_F(Gltf, ExtrasOfOursWinOverTheExtensionsAndOthersAreLeftAlone) {
+  json document = sample_document();
+  json& material = document["materials"][0];
+  material["extensions"]["KHR_materials_transmission"] = {{"transmissionFactor", 1.0}};
+  material["extras"] = json::parse(R"({"absorption": "of another program", "hybray": {"outer_ior": 1.33,
+    "absorption": [1, 2, 3], "outer_absorption": [4, 5, 6], "thin_walled": false,
+    "conductor_eta": [7, 8, 9], "conductor_k": [0.1, 0.2, 0.3]}})");
+  const Material m = load(document).materials[0];
+  EXPECT_EQ(m.outer_ior, 1.33f);
+  EXPECT_EQ(m.absorption, vec3(1, 2, 3));
+  EXPECT_EQ(m.outer_absorption, vec3(4, 5, 6));
+  EXPECT_FALSE(m.thin_walled);
+  EXPECT_EQ(m.conductor_eta, vec3(7, 8, 9));
+  EXPECT_EQ(m.conductor_k, vec3(0.1f, 0.2f, 0.3f));
+  material["extras"] = "words";
+  EXPECT_TRUE(load(document).materials[0].thin_walled);
+}
+
 TEST_F(Gltf, LightsShineAlongTheNodesMinusZ) {
   json document = sample_document();
   document["extensions"]["KHR_lights_punctual"]["lights"] = json::parse(R"([
@@ -284,9 +329,27 @@ TEST_F(Gltf, PerspectiveCamerasLookAlongTheNodesMinusZ) {
 TEST_F(Gltf, SavingAndLoadingKeepsEveryBitOfTrianglesAndMaterials) {
   Scene scene;
   scene.name = "saved";
-  scene.materials.resize(2);
-  scene.materials[0] = {"clay", vec3(0.1f, 0.2f, 0.3f), 0.25f, 0.6f, 0.0f, 1.5f, vec3(0.0f)};
-  scene.materials[1] = {"glow", vec3(1.0f), 1.0f, 0.0f, 0.9f, 1.3333f, vec3(17.3f, 0.7f, 1e-3f)};
+  scene.materials = {
+      {.name = "clay", .base_color = vec3(0.1f, 0.2f, 0.3f), .metallic = 0.25f, .roughness = 0.6f},
+      {.name = "glow",
+       .base_color = vec3(1.0f),
+       .metallic = 1.0f,
+       .roughness = 0.0f,
+       .transmission = 0.9f,
+       .ior = 1.3333f,
+       .emissive = vec3(17.3f, 0.7f, 1e-3f)},
+      {.name = "wine",
+       .transmission = 1.0f,
+       .ior = 1.345f,
+       .outer_ior = 1.51f,
+       .absorption = vec3(4.1f, 60.3f, 1e-7f),
+       .outer_absorption = vec3(0.1f, 0.0f, 0.3f)},
+      {.name = "pane", .transmission = 0.5f, .absorption = vec3(0.3f), .thin_walled = true},
+      {.name = "gauze", .thin_walled = true},
+      {.name = "gold",
+       .metallic = 1.0f,
+       .conductor_eta = vec3(0.21f, 0.43f, 1.38f),
+       .conductor_k = vec3(3.272f, 2.455f, 1.914f)}};
   Mesh mesh;
   for (int i = 0; i < 30; ++i) {
     const auto f = static_cast<float>(i);
@@ -309,14 +372,21 @@ TEST_F(Gltf, SavingAndLoadingKeepsEveryBitOfTrianglesAndMaterials) {
   EXPECT_EQ(again.normals, scene.normals);
   EXPECT_EQ(again.triangles, scene.triangles);
   EXPECT_EQ(again.triangle_material, scene.triangle_material);
-  ASSERT_EQ(again.materials.size(), 2u);
-  for (size_t m = 0; m < 2; ++m) {
+  ASSERT_EQ(again.materials.size(), scene.materials.size());
+  for (size_t m = 0; m < scene.materials.size(); ++m) {
+    SCOPED_TRACE(scene.materials[m].name);
     EXPECT_EQ(again.materials[m].name, scene.materials[m].name);
     EXPECT_EQ(again.materials[m].base_color, scene.materials[m].base_color);
     EXPECT_EQ(again.materials[m].metallic, scene.materials[m].metallic);
     EXPECT_EQ(again.materials[m].roughness, scene.materials[m].roughness);
     EXPECT_EQ(again.materials[m].transmission, scene.materials[m].transmission);
     EXPECT_EQ(again.materials[m].ior, scene.materials[m].ior);
+    EXPECT_EQ(again.materials[m].outer_ior, scene.materials[m].outer_ior);
+    EXPECT_EQ(again.materials[m].absorption, scene.materials[m].absorption);
+    EXPECT_EQ(again.materials[m].outer_absorption, scene.materials[m].outer_absorption);
+    EXPECT_EQ(again.materials[m].thin_walled, scene.materials[m].thin_walled);
+    EXPECT_EQ(again.materials[m].conductor_eta, scene.materials[m].conductor_eta);
+    EXPECT_EQ(again.materials[m].conductor_k, scene.materials[m].conductor_k);
     EXPECT_EQ(again.materials[m].emissive, scene.materials[m].emissive);
   }
   ASSERT_EQ(again.objects.size(), 2u);

@@ -79,6 +79,44 @@ TEST_F(Overlay, MaterialsAreChangedWhereTheOverlaySaysSoAndOnlyThere) {
   EXPECT_EQ(material.roughness, 0.75f);
 }
 
+TEST_F(Overlay, MediaAndMetalsAreGivenAndWhatIsNotGivenStays) {
+  json overlay = sample();
+  overlay["materials"]["paint"] =
+      json::parse(R"({"outer_ior": 1.5, "absorption": [1, 2, 3], "outer_absorption": [0, 0.5, 0],
+                      "thin_walled": true, "conductor_eta": [0.2, 0.4, 1.4], "conductor_k": [3.5, 2.5, 2]})");
+  const Material material = load(overlay).materials[0];
+  EXPECT_EQ(material.ior, 1.5f);
+  EXPECT_EQ(material.outer_ior, 1.5f);
+  EXPECT_EQ(material.absorption, vec3(1, 2, 3));
+  EXPECT_EQ(material.outer_absorption, vec3(0, 0.5f, 0));
+  EXPECT_TRUE(material.thin_walled);
+  EXPECT_EQ(material.conductor_eta, vec3(0.2f, 0.4f, 1.4f));
+  EXPECT_EQ(material.conductor_k, vec3(3.5f, 2.5f, 2.0f));
+  const Material plain = load(sample()).materials[0];
+  EXPECT_EQ(plain.outer_ior, 1.0f);
+  EXPECT_FALSE(plain.thin_walled);
+}
+
+TEST_F(Overlay, MediaThatCannotBeAreRefused) {
+  const auto refuse_value = [&](const char* key, const json& value, const std::string& message) {
+    refuse(std::string("/materials/paint/") + key, message,
+           [&](json& o) { o["materials"]["paint"][key] = value; });
+  };
+  refuse_value("ior", 0.99, "not between 1");
+  refuse_value("outer_ior", 0.0, "not between 1");
+  refuse_value("outer_ior", -1.5, "not between 1");
+  refuse_value("outer_ior", 1e300, "not between 1");
+  refuse_value("outer_ior", "water", "expected a number");
+  refuse_value("absorption", json::array({0, -1e-6, 0}), "not between 0");
+  refuse_value("absorption", 3.0, "array of three numbers");
+  refuse_value("absorption", json::array({0, 1e300, 0}), "not between 0");
+  refuse_value("outer_absorption", json::array({0, 0}), "array of three numbers");
+  refuse_value("conductor_eta", json::array({-0.1, 0, 0}), "not between 0");
+  refuse_value("conductor_k", json::array({"1", 0, 0}), "array of three numbers");
+  refuse_value("thin_walled", 1, "true or false");
+  refuse_value("thin_waled", true, "did you mean 'thin_walled'?");
+}
+
 TEST_F(Overlay, LightsAddToTheSourceUnlessTheyReplaceIt) {
   json document = sample_document("");
   document["extensions"]["KHR_lights_punctual"]["lights"] =
@@ -160,7 +198,7 @@ TEST_F(Overlay, RemovedMaterialsTakeTheirTrianglesWithThem) {
   EXPECT_EQ(scene.bounds.upper, vec3(1, 1, 0));
   refuse("/remove_materials/0", "did you mean 'leaves'?", [](json& o) { o["remove_materials"] = {"leavs"}; });
   overlay["remove_materials"] = {"leaves", "paint"};
-  expect_refused(overlay.dump(), "place.json", "no triangles");
+  expect_refused(overlay.dump(), "place.json", "no surfaces");
 }
 
 TEST_F(Overlay, TheHashCoversWhatTheOverlayChanges) {

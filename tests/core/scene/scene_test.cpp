@@ -100,6 +100,12 @@ TEST(Scene, TheContentHashChangesWithEveryPartThatMatters) {
   EXPECT_TRUE(changed([](Scene& s) { std::swap(s.triangles[0].x, s.triangles[0].y); }));
   EXPECT_TRUE(changed([](Scene& s) { s.triangle_material[0] = 1; }));
   EXPECT_TRUE(changed([](Scene& s) { s.materials[1].ior = 1.6f; }));
+  EXPECT_TRUE(changed([](Scene& s) { s.materials[1].outer_ior = 1.6f; }));
+  EXPECT_TRUE(changed([](Scene& s) { s.materials[0].absorption.y = 0.1f; }));
+  EXPECT_TRUE(changed([](Scene& s) { s.materials[0].outer_absorption.z = 0.1f; }));
+  EXPECT_TRUE(changed([](Scene& s) { s.materials[1].thin_walled = true; }));
+  EXPECT_TRUE(changed([](Scene& s) { s.materials[1].conductor_eta.x = 0.2f; }));
+  EXPECT_TRUE(changed([](Scene& s) { s.materials[1].conductor_k.x = 0.2f; }));
   EXPECT_TRUE(changed([](Scene& s) { s.lights[0].intensity = 2.0f; }));
   EXPECT_TRUE(changed([](Scene& s) { s.cameras[0].vertical_fov = 61.0f; }));
 }

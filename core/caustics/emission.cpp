@@ -1,0 +1,123 @@
+#include "core/caustics/emission.h"
+
+#include "core/base/check.h"
+#include "core/base/error.h"
+#include "core/base/hash.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace hybray::caustics {
+namespace {
+
+constexpr double kMostPaths = 0x1p40;
+
+// Dimensions of the random numbers below; those of the path's events come after (photon_trace.cpp).
+enum : uint32_t { kOffset, kRotation, kJitterX, kJitterY };
+
+// Steps of the additive sequences of low discrepancy: the golden ratio for one dimension, and the root of
+// x^3 = x + 1, which plays its part in two.
+constexpr double kGolden = 0.61803398874989485;
+constexpr double kPlasticX = 0.75487766624669276, kPlasticY = 0.56984029099805327;
+
+double fraction(double x) {
+  return x - std::floor(x);
+}
+
+uint64_t paths_of(double expected, double offset) {
+  return expected > offset ? static_cast<uint64_t>(std::ceil(expected - offset)) : 0;
+}
+
+}  // namespace
+
+double expected_paths(const VisibilityMap& map, EmissionKind kind, double rays_per_texel) {
+  const uint64_t texels = kind == EmissionKind::map ? map.texels.size() : map.texels_total;
+  const double expected = rays_per_texel * static_cast<double>(texels);
+  if (!(rays_per_texel > 0.0) || !std::isfinite(rays_per_texel))
+    throw InputError("rays_per_texel", fmt::format("{} is not a positive number", rays_per_texel));
+  if (expected > kMostPaths)
+    throw InputError("rays_per_texel", fmt::format("{} rays for each of {} texels are more than 2^40 paths",
+                                                   rays_per_texel, texels));
+  return expected;
+}
+
+Emission::Emission(const Light& light, const VisibilityMap& map, const Bounds3& scene, EmissionKind kind,
+                   double expected, uint64_t seed)
+    : light_(light),
+      map_(map),
+      domain_(light, scene),
+      seed_(seed),
+      map_offset_(random_unit(0, kOffset, 0, seed)),
+      domain_offset_(random_unit(1, kOffset, 0, seed)),
+      rotation_(random_unit(0, kRotation, 0, seed)) {
+  if (kind == EmissionKind::mixture && map.texels.empty()) kind = EmissionKind::uniform;
+  if (kind == EmissionKind::map) HYBRAY_CHECK(!map.texels.empty());
+  map_expected_ = kind == EmissionKind::map ? expected : kind == EmissionKind::mixture ? 0.5 * expected : 0.0;
+  domain_expected_ = expected - map_expected_;
+  map_paths_ = paths_of(map_expected_, map_offset_);
+  domain_paths_ = paths_of(domain_expected_, domain_offset_);
+}
+
+PathStart Emission::start(uint64_t path) const {
+  return path < map_paths_ ? from_map(path) : from_domain(path - map_paths_);
+}
+
+PathStart Emission::from_map(uint64_t path) const {
+  const double position = (static_cast<double>(path) + map_offset_) / map_expected_;
+  const size_t last = map_.texels.size() - 1;
+  const size_t index =
+      std::min(last, static_cast<size_t>(position * static_cast<double>(map_.texels.size())));
+  const MapTexel& texel = map_.texels[index];
+  const LightFrame& frame = map_.frames[texel.frame].frame;
+  const double i = static_cast<double>(path);
+  const double x = texel.x + fraction(random_unit(index, kJitterX, 0, seed_) + i * kPlasticX);
+  const double y = texel.y + fraction(random_unit(index, kJitterY, 0, seed_) + i * kPlasticY);
+
+  PathStart start;
+  start.origin = frame.ray_origin(x, y);
+  start.direction = frame.ray_direction(x, y);
+  start.in_map = true;
+  start.frame = texel.frame;
+  start.x = texel.x, start.y = texel.y;
+  const double map_density = 1.0 / (static_cast<double>(map_.texels.size()) * frame.measure_density(x, y));
+  start.flux = intensity(light_, start.direction) /
+               (map_expected_ * map_density + domain_expected_ / domain_.measure());
+  return start;
+}
+
+PathStart Emission::from_domain(uint64_t path) const {
+  PathStart start;
+  const double i = static_cast<double>(path);
+  domain_.sample(fraction(rotation_ + i * kGolden), (i + domain_offset_) / domain_expected_, start.origin,
+                 start.direction);
+  double density = domain_expected_ / domain_.measure();
+  dvec2 image(0.0);
+  if (find_texel(start, image))
+    density += map_expected_ / (static_cast<double>(map_.texels.size()) *
+                                map_.frames[start.frame].frame.measure_density(image.x, image.y));
+  start.flux = intensity(light_, start.direction) / density;
+  return start;
+}
+
+bool Emission::find_texel(PathStart& start, dvec2& image) const {
+  for (uint32_t f = 0; f < map_.frames.size(); ++f) {
+    const MapFrame& frame = map_.frames[f];
+    // A point of the ray that lies in front of the frame: orthographic frames start before the scene.
+    const double reach =
+        frame.frame.orthographic
+            ? std::abs(glm::dot(frame.frame.origin - start.origin, frame.frame.forward)) + 1.0
+            : 1.0;
+    if (!frame.frame.project(start.origin + reach * start.direction, image)) continue;
+    const int x = static_cast<int>(image.x), y = static_cast<int>(image.y);
+    if (!frame.active(x, y)) continue;
+    start.in_map = true;
+    start.frame = f;
+    start.x = static_cast<uint16_t>(x), start.y = static_cast<uint16_t>(y);
+    return true;
+  }
+  return false;
+}
+
+}  // namespace hybray::caustics

@@ -1,0 +1,53 @@
+#include "core/caustics/light_source.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace hybray::caustics {
+
+dvec3 intensity(const Light& light, const dvec3& direction) {
+  const dvec3 full = static_cast<double>(light.intensity) * dvec3(light.color);
+  if (light.kind != LightKind::spot) return full;
+  const double inner = std::cos(static_cast<double>(light.inner_cone_angle));
+  const double outer = std::cos(static_cast<double>(light.outer_cone_angle));
+  const double c = glm::dot(direction, glm::normalize(dvec3(light.direction)));
+  const double falloff = std::clamp((c - outer) / std::max(1e-3, inner - outer), 0.0, 1.0);
+  return full * (falloff * falloff);
+}
+
+bool emits(const Light& light) {
+  return light.intensity > 0.0f && (light.color.x > 0.0f || light.color.y > 0.0f || light.color.z > 0.0f);
+}
+
+UniformDomain::UniformDomain(const Light& light, const Bounds3& scene)
+    : kind_(light.kind), origin_(light.position), axis_(glm::normalize(dvec3(light.direction))) {
+  basis_around(axis_, right_, down_);
+  switch (kind_) {
+    case LightKind::directional:
+      plane_ = light_frames(light, {&scene, 1}, scene, 1).front();
+      measure_ = plane_.texel_measure(0, 0);
+      return;
+    case LightKind::spot:
+      cos_cone_ = std::cos(static_cast<double>(light.outer_cone_angle));
+      break;
+    case LightKind::point:
+      break;
+  }
+  measure_ = 2.0 * std::numbers::pi * (1.0 - cos_cone_);
+}
+
+void UniformDomain::sample(double u, double v, dvec3& origin, dvec3& direction) const {
+  if (kind_ == LightKind::directional) {
+    origin = plane_.ray_origin(u, v);
+    direction = plane_.forward;
+    return;
+  }
+  const double c = 1.0 - v * (1.0 - cos_cone_);
+  const double s = std::sqrt(std::max(0.0, 1.0 - c * c));
+  const double phi = 2.0 * std::numbers::pi * u;
+  origin = origin_;
+  direction = s * std::cos(phi) * right_ + s * std::sin(phi) * down_ + c * axis_;
+}
+
+}  // namespace hybray::caustics

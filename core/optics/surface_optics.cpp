@@ -1,0 +1,132 @@
+#include "core/optics/surface_optics.h"
+
+#include "core/base/error.h"
+#include "core/optics/fresnel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <fmt/format.h>
+
+namespace hybray::optics {
+namespace {
+
+void require(bool condition, const Material& m, const char* property, double value, const char* range) {
+  if (!condition)
+    throw InputError(fmt::format("material '{}'", m.name),
+                     fmt::format("{} is {}; it must be {}", property, value, range));
+}
+
+void check(const Material& m) {
+  const auto unit = [&](const char* name, float v) {
+    require(v >= 0.0f && v <= 1.0f, m, name, v, "between 0 and 1");
+  };
+  const auto non_negative = [&](const char* name, const vec3& v) {
+    for (int c = 0; c < 3; ++c)
+      require(v[c] >= 0.0f && std::isfinite(v[c]), m, name, v[c], "finite and not negative");
+  };
+  for (int c = 0; c < 3; ++c) unit("base_color", m.base_color[c]);
+  unit("metallic", m.metallic);
+  unit("roughness", m.roughness);
+  unit("transmission", m.transmission);
+  for (const auto& [name, value] : {std::pair("ior", m.ior), std::pair("outer_ior", m.outer_ior)})
+    require(value >= 1.0f && std::isfinite(value), m, name, value, "at least 1");
+  non_negative("absorption", m.absorption);
+  non_negative("outer_absorption", m.outer_absorption);
+  non_negative("conductor_eta", m.conductor_eta);
+  non_negative("conductor_k", m.conductor_k);
+}
+
+uint16_t medium(OpticsTable& table, float ior, const vec3& absorption) {
+  const Medium wanted{ior, dvec3(absorption)};
+  const auto found = std::find(table.media.begin(), table.media.end(), wanted);
+  if (found != table.media.end()) return static_cast<uint16_t>(found - table.media.begin());
+  table.media.push_back(wanted);
+  return static_cast<uint16_t>(table.media.size() - 1);
+}
+
+SurfaceOptics describe(const Material& m, OpticsTable& table) {
+  check(m);
+  SurfaceOptics s;
+  s.color = dvec3(m.base_color);
+  s.ior = m.ior;
+  s.outer_ior = m.outer_ior;
+  if (m.roughness >= kSmoothRoughness) {
+    s.base = 1.0 - (1.0 - m.metallic) * m.transmission;  // what a rough surface lets through is not followed
+    s.diffuse_scale = s.base * s.color * std::numbers::inv_pi;
+  } else {
+    s.metal = m.metallic;
+    s.clear = (1.0 - m.metallic) * m.transmission;
+    s.base = (1.0 - m.metallic) * (1.0 - m.transmission);
+    s.thin = m.thin_walled;
+    s.eta = dvec3(m.conductor_eta) / static_cast<double>(m.outer_ior);
+    s.k = dvec3(m.conductor_k) / static_cast<double>(m.outer_ior);
+    s.conductor = s.eta != dvec3(0.0) || s.k != dvec3(0.0);
+    const double eta = s.ior / s.outer_ior;
+    s.coated = eta != 1.0;
+    const double back = s.coated && s.base > 0.0 ? hemispherical_reflectance(1.0 / eta) : 0.0;
+    s.diffuse_scale = s.base * s.color * std::numbers::inv_pi / (eta * eta * (1.0 - back * s.color));
+    s.specular = s.metal > 0.0 || s.clear > 0.0 || (s.base > 0.0 && s.coated);
+    s.interface = s.clear > 0.0 && !s.thin;
+    if (s.interface) {
+      s.inner_medium = medium(table, m.ior, m.absorption);
+      s.outer_medium = medium(table, m.outer_ior, m.outer_absorption);
+    }
+  }
+  s.diffuse = s.base > 0.0 && s.color != dvec3(0.0);
+  return s;
+}
+
+dvec3 metal_reflectance(const SurfaceOptics& s, double cos_i) {
+  if (!s.conductor) return s.color;
+  return {fresnel_conductor(cos_i, s.eta.x, s.k.x), fresnel_conductor(cos_i, s.eta.y, s.k.y),
+          fresnel_conductor(cos_i, s.eta.z, s.k.z)};
+}
+
+}  // namespace
+
+OpticsTable make_optics(const Scene& scene) {
+  OpticsTable table;
+  table.media.emplace_back();
+  table.materials.reserve(scene.materials.size());
+  for (const Material& m : scene.materials) table.materials.push_back(describe(m, table));
+  const auto count_material = [&](uint32_t material) {
+    table.any_specular |= table.materials[material].specular;
+    table.any_interface |= table.materials[material].interface;
+  };
+  for (const SceneObject& object : scene.objects)
+    if (object.triangle_count > 0) count_material(object.material);
+  for (const AnalyticSurface& surface : scene.analytic) count_material(surface.material);
+  return table;
+}
+
+SpecularSplit split(const SurfaceOptics& s, double cos_i, bool from_inner) {
+  SpecularSplit r;
+  if (!s.specular) {
+    r.base_entry = s.base;
+    return r;
+  }
+  if (s.metal > 0.0) r.reflectance += s.metal * metal_reflectance(s, cos_i);
+  if (s.clear > 0.0) {
+    const double f = s.thin ? thin_sheet_reflectance(cos_i, s.ior / s.outer_ior)
+                            : fresnel_dielectric(cos_i, crossing_eta(s, from_inner));
+    r.reflectance += s.clear * f;
+    r.transmittance = s.clear * (1.0 - f) * s.color;
+  }
+  if (s.base > 0.0) {
+    // Both sides of an opaque surface are its outside.
+    const double f = s.coated ? fresnel_dielectric(cos_i, s.ior / s.outer_ior) : 0.0;
+    r.reflectance += s.base * f;
+    r.base_entry = s.base * (1.0 - f);
+  }
+  return r;
+}
+
+dvec3 diffuse_brdf(const SurfaceOptics& s, double cos_in, double cos_out) {
+  if (!s.coated) return s.diffuse_scale;
+  const double eta = s.ior / s.outer_ior;
+  return (1.0 - fresnel_dielectric(cos_in, eta)) * (1.0 - fresnel_dielectric(cos_out, eta)) * s.diffuse_scale;
+}
+
+}  // namespace hybray::optics

@@ -1,0 +1,52 @@
+#include "core/scene/surface_point.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace hybray {
+namespace {
+
+// A few times the rounding of a float intersection, relative to the largest coordinate involved.
+constexpr double kOffset = 0x1p-19;
+
+double largest(const dvec3& v) {
+  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+SurfacePoint analytic_point(const AnalyticSurface& surface, uint32_t primitive, const dvec3& hit) {
+  SurfacePoint p;
+  p.primitive = primitive;
+  p.position = moved_onto(surface, hit);
+  p.geometric_normal = outward_normal(surface, p.position);
+  p.shading_normal = p.geometric_normal;
+  p.material = surface.material;
+  p.offset = kOffset * std::max(largest(p.position), extent(surface));
+  return p;
+}
+
+}  // namespace
+
+SurfacePoint surface_point(const Scene& scene, uint32_t primitive, float u, float v, const dvec3& hit) {
+  if (scene.is_analytic(primitive)) return analytic_point(scene.analytic_surface(primitive), primitive, hit);
+  const uvec3& tri = scene.triangles[primitive];
+  const dvec3 a(scene.positions[tri.x]), b(scene.positions[tri.y]), c(scene.positions[tri.z]);
+  const dvec3 ab = b - a, ac = c - a;
+  SurfacePoint p;
+  p.primitive = primitive;
+  p.position = a + static_cast<double>(u) * ab + static_cast<double>(v) * ac;
+  p.geometric_normal = glm::normalize(glm::cross(ab, ac));
+  const vec3 n = (1.0f - u - v) * scene.normals[tri.x] + u * scene.normals[tri.y] + v * scene.normals[tri.z];
+  const double length = glm::length(dvec3(n));
+  // Opposite vertex normals can cancel: the triangle's own normal is then the only one there is.
+  p.shading_normal = length > 1e-6 ? dvec3(n) / length : p.geometric_normal;
+  p.material = scene.triangle_material[primitive];
+  p.offset = kOffset * std::max({largest(p.position), largest(ab), largest(ac)});
+  return p;
+}
+
+dvec3 geometric_normal(const Scene& scene, uint32_t primitive, const dvec3& point) {
+  return scene.is_analytic(primitive) ? outward_normal(scene.analytic_surface(primitive), point)
+                                      : geometric_normal(scene, primitive);
+}
+
+}  // namespace hybray

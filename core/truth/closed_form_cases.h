@@ -1,0 +1,29 @@
+// The closed forms themselves, one a scene: the regions of the receiver with their irradiance for paths of at
+// most `max_events` specular events. closed_forms.cpp looks them up.
+#pragma once
+
+#include "core/truth/closed_forms.h"
+
+#include <vector>
+
+namespace hybray::truth {
+
+// Axially symmetric: closed_form_axial.cpp.
+std::vector<Region> ball_lens_regions(int max_events);
+std::vector<Region> glass_slab_regions(int max_events);
+std::vector<Region> flat_water_regions(int max_events);
+std::vector<Region> furnace_regions(int max_events);
+
+// closed_form_mirrors.cpp
+std::vector<Region> plane_mirror_regions(int max_events);
+std::vector<Region> paraboloid_regions(int max_events);
+
+// Upright cylinders, seen from above: closed_form_cylinder.cpp.
+std::vector<Region> cylinder_regions(int max_events);
+std::vector<Region> cardioid_regions(int max_events);
+
+// Prisms in their cross section: closed_form_prism.cpp.
+std::vector<Region> prism_regions(int max_events);
+std::vector<Region> tir_prism_regions(int max_events);
+
+}  // namespace hybray::truth

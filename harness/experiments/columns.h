@@ -1,0 +1,36 @@
+// Shorthand for the columns that experiments declare.
+#pragma once
+
+#include "harness/experiments/experiment.h"
+
+namespace hybray::column {
+
+inline Column key(const char* name, const char* text, const char* unit = "") {
+  return {name, unit, ColumnKind::key, Better::none, text};
+}
+inline Column fraction(const char* name, Better better, const char* text) {
+  return {name, "1", ColumnKind::metric, better, text};
+}
+inline Column counted(const char* name, const char* text, const char* unit = "") {
+  return {name, unit, ColumnKind::count, Better::none, text};
+}
+
+// A time and, beside it, the spread of its repeats.
+inline void add_time(std::vector<Column>& columns, const std::string& stem, const std::string& text) {
+  columns.push_back(
+      {stem + "_ms", "ms", ColumnKind::time, Better::lower, text + "; median over the repeats"});
+  columns.push_back(
+      {stem + "_spread_ms", "ms", ColumnKind::time, Better::none, "interquartile range of " + stem + "_ms"});
+}
+
+// A ratio of times with its 95 % bootstrap interval.
+inline void add_ratio(std::vector<Column>& columns, const std::string& name, const std::string& text,
+                      Better better = Better::higher) {
+  columns.push_back({name, "1", ColumnKind::time, better, text + "; median of the paired ratios"});
+  columns.push_back(
+      {name + "_low", "1", ColumnKind::time, Better::none, "lower end of the 95 % interval of " + name});
+  columns.push_back(
+      {name + "_high", "1", ColumnKind::time, Better::none, "upper end of the 95 % interval of " + name});
+}
+
+}  // namespace hybray::column

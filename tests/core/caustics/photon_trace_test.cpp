@@ -1,0 +1,261 @@
+// Light paths: the account of their flux, independence of threads, and agreement of all ways to emit.
+#include "core/caustics/photon_trace.h"
+
+#include "core/base/error.h"
+#include "core/base/parallel.h"
+#include "core/caustics/medium_at.h"
+#include "tests/core/caustics/caustic_scenes.h"
+
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+namespace hybray {
+namespace {
+
+using namespace caustics;
+using namespace test;
+
+PassSettings settings_for(const Scene& scene, EmissionKind kind, FirstSurface first, int depth,
+                          int resolution = 128) {
+  PassSettings s;
+  s.map_resolution = resolution;
+  s.emission = kind;
+  s.first_surface = first;
+  s.walk.max_events = depth;
+  for (uint32_t i = 0; i < scene.lights.size(); ++i) s.lights.push_back(i);
+  return s;
+}
+
+LightPaths trace(const Prepared& p, const PassSettings& s, uint32_t sample = 0) {
+  return trace_light_paths(p.caustic, s, make_maps(p.caustic, s), sample);
+}
+
+TEST(PhotonTrace, TheLedgerClosesForEveryKindOfMaterialEmissionAndDepth) {
+  const Prepared p(mixed_scene());
+  for (const EmissionKind kind : {EmissionKind::map, EmissionKind::uniform, EmissionKind::mixture})
+    for (const FirstSurface first : {FirstSurface::stored, FirstSurface::traced})
+      for (const int depth : {1, 2, 16}) {
+        const LightPaths paths = trace(p, settings_for(p.scene, kind, first, depth));
+        const FluxLedger& l = paths.list.counts.ledger;
+        ASSERT_GT(l.emitted, 0.0);
+        EXPECT_NEAR(l.total() / l.emitted, 1.0, 1e-9);
+        EXPECT_GT(l.deposited, 0.0);
+        EXPECT_GT(l.absorbed, 0.0);
+        EXPECT_GT(l.escaped, 0.0);
+        // The photons carry what the ledger says was deposited, less the share that the coat of glossy paint
+        // turned back: that part went on along the path.
+        double carried = 0.0;
+        for (const Photon& photon : paths.list.photons) carried += mean_flux(photon);
+        EXPECT_GE(carried, l.deposited * (1.0 - 1e-6));
+        EXPECT_LE(carried, l.deposited * 1.25);
+      }
+}
+
+TEST(PhotonTrace, EachLightHasALedgerOfItsOwnAndTheyAddUp) {
+  Scene scene = mixed_scene();
+  scene.lights.push_back(point_light(vec3(-1.0f, 2.5f, 1.0f), 4.0f));
+  const Prepared p(std::move(scene));
+  const LightPaths paths = trace(p, settings_for(p.scene, EmissionKind::map, FirstSurface::stored, 4));
+  ASSERT_EQ(paths.ledgers.size(), 2u);
+  double emitted = 0.0;
+  for (const FluxLedger& l : paths.ledgers) {
+    EXPECT_NEAR(l.total() / l.emitted, 1.0, 1e-9);
+    emitted += l.emitted;
+  }
+  EXPECT_NEAR(emitted, paths.list.counts.ledger.emitted, 1e-9 * emitted);
+}
+
+TEST(PhotonTrace, PhotonsAreTheSameBitsAtAnyNumberOfThreads) {
+  const Prepared p(mixed_scene());
+  const PassSettings s = settings_for(p.scene, EmissionKind::map, FirstSurface::stored, 8);
+  std::vector<Photon> first;
+  for (const int threads : {1, 2, 5}) {
+    const ThreadLimit limit(threads);
+    const LightPaths paths = trace(p, s);
+    ASSERT_GT(paths.list.photons.size(), 1000u);
+    if (first.empty()) {
+      first = paths.list.photons;
+      continue;
+    }
+    ASSERT_EQ(first.size(), paths.list.photons.size());
+    EXPECT_EQ(std::memcmp(first.data(), paths.list.photons.data(), first.size() * sizeof(Photon)), 0);
+  }
+}
+
+TEST(PhotonTrace, NothingIsNegativeOrNotANumber) {
+  const Prepared p(mixed_scene());
+  const LightPaths paths = trace(p, settings_for(p.scene, EmissionKind::mixture, FirstSurface::stored, 16));
+  for (const Photon& photon : paths.list.photons) {
+    for (int c = 0; c < 3; ++c) {
+      ASSERT_GE(photon.flux[c], 0.0f);
+      ASSERT_TRUE(std::isfinite(photon.flux[c]) && std::isfinite(photon.position[c]));
+    }
+    ASSERT_TRUE(std::isfinite(photon.shading_ratio) && photon.shading_ratio >= 0.0f);
+    ASSERT_NEAR(glm::length(photon.direction), 1.0f, 1e-5f);
+    ASSERT_LT(glm::dot(photon.direction, photon.normal), 0.0f);
+  }
+}
+
+// Mean deposited flux and its standard error over independent samples.
+struct Estimate {
+  double mean = 0.0, error = 0.0;
+};
+Estimate deposited(const Prepared& p, const PassSettings& s, int samples) {
+  std::vector<double> values;
+  for (int i = 0; i < samples; ++i)
+    values.push_back(trace(p, s, static_cast<uint32_t>(i)).list.counts.ledger.deposited);
+  Estimate e;
+  for (const double v : values) e.mean += v / samples;
+  for (const double v : values) e.error += (v - e.mean) * (v - e.mean);
+  e.error = std::sqrt(e.error / (samples * (samples - 1.0)));
+  return e;
+}
+
+TEST(PhotonTrace, MapUniformAndMixedEmissionAgreeOnWhatArrives) {
+  const Prepared p(mixed_scene());
+  constexpr int kSamples = 16;
+  const Estimate map =
+      deposited(p, settings_for(p.scene, EmissionKind::map, FirstSurface::traced, 8, 256), kSamples);
+  const Estimate uniform =
+      deposited(p, settings_for(p.scene, EmissionKind::uniform, FirstSurface::traced, 8, 128), kSamples);
+  const Estimate mixture =
+      deposited(p, settings_for(p.scene, EmissionKind::mixture, FirstSurface::traced, 8, 128), kSamples);
+  // Two comparisons, each with 4.5 standard errors: false alarms about once in 10^5 runs.
+  EXPECT_LT(std::abs(uniform.mean - mixture.mean), 4.5 * std::hypot(uniform.error, mixture.error));
+  // The map sees a texel whole or not at all: at a silhouette half of the texels along it are wrong by half
+  // on average, in both directions. The silhouettes here are some 12 m of 0.7 m wide objects: below 2 %.
+  EXPECT_NEAR(map.mean / uniform.mean, 1.0, 0.02);
+  EXPECT_LT(map.error, uniform.error);
+}
+
+TEST(PhotonTrace, RouletteKeepsTheExpectation) {
+  // Between two facing mirrors of reflectance 0.9 paths are long, and roulette decides often.
+  Scene scene = empty_scene();
+  scene.materials[0] = matte(vec3(1.0f));
+  const uint32_t m = add_material(scene, mirror(vec3(0.9f)));
+  add_floor(scene, 50.0f, -1.0f);
+  add_sheet(scene, m, vec3(-1.0f, -0.9f, -40.0f), vec3(0.0f, 0.0f, 80.0f), vec3(0.0f, 10.0f, 0.0f));
+  add_sheet(scene, m, vec3(1.0f, -0.9f, -40.0f), vec3(0.0f, 0.0f, 80.0f), vec3(0.0f, 10.0f, 0.0f));
+  scene.lights.push_back(point_light(vec3(0.0f, 1.0f, 0.0f), 1.0f));
+  update_content_hash(scene);
+  const Prepared p(std::move(scene));
+  PassSettings s = settings_for(p.scene, EmissionKind::map, FirstSurface::traced, 60, 128);
+  s.walk.roulette_threshold = 0.0;
+  const Estimate without = deposited(p, s, 12);
+  s.walk.roulette_threshold = 0.8;
+  const Estimate with = deposited(p, s, 12);
+  EXPECT_LT(std::abs(with.mean - without.mean), 4.5 * std::hypot(with.error, without.error));
+  EXPECT_GT(without.mean, 0.0);
+}
+
+TEST(PhotonTrace, FractionsOfARayPerTexelKeepTheFlux) {
+  const Prepared p(mixed_scene());
+  PassSettings s = settings_for(p.scene, EmissionKind::map, FirstSurface::stored, 4, 128);
+  const MapSet maps = make_maps(p.caustic, s);
+  ASSERT_EQ(maps.maps.size(), 1u);
+  const double covered = maps.maps[0].covered_flux;
+  for (const double rays : {0.1, 0.5, 1.0, 2.7}) {
+    s.rays_per_texel = rays;
+    double sum = 0.0, square = 0.0;
+    constexpr int kSamples = 32;
+    uint64_t paths = 0;
+    for (uint32_t i = 0; i < kSamples; ++i) {
+      const LightPaths traced = trace_light_paths(p.caustic, s, maps, i);
+      const double emitted = traced.list.counts.ledger.emitted;
+      sum += emitted, square += emitted * emitted;
+      paths += traced.list.paths;
+    }
+    const double mean = sum / kSamples;
+    const double error = std::sqrt(std::max(0.0, square / kSamples - mean * mean) / (kSamples - 1.0));
+    // Solid angles of texels of 1/64 of a quarter turn, at their centres and jittered, differ by second
+    // order.
+    EXPECT_LT(std::abs(mean - covered), 4.5 * error + 1e-5 * covered) << rays;
+    EXPECT_NEAR(static_cast<double>(paths) / kSamples, rays * static_cast<double>(maps.maps[0].texels.size()),
+                1.0);
+  }
+}
+
+TEST(PhotonTrace, DepthCutsWhatFollowsAndCountsIt) {
+  const Prepared p(mixed_scene());
+  double deposited = 0.0, truncated = 1e300;
+  for (const int depth : {1, 2, 3, 8, 16}) {
+    const FluxLedger l =
+        trace(p, settings_for(p.scene, EmissionKind::map, FirstSurface::stored, depth)).list.counts.ledger;
+    EXPECT_GE(l.deposited, deposited * 0.999);
+    EXPECT_LE(l.truncated, truncated);
+    deposited = l.deposited, truncated = l.truncated;
+  }
+  EXPECT_LT(truncated, 1e-3 * deposited);
+}
+
+TEST(PhotonTrace, ALightInsideGlassShinesOut) {
+  // At the centre of a ball every ray meets the surface head on and goes straight on: the floor receives
+  // T I cos / d^2 as if from the bare lamp, with T = 1 - ((n - 1) / (n + 1))^2 at first crossing.
+  Scene scene = empty_scene();
+  scene.materials[0] = matte(vec3(1.0f));
+  const uint32_t g = add_material(scene, glass(1.5f));
+  add_floor(scene, 4.0f);
+  append_analytic(scene, analytic_sphere("ball", g, dvec3(0.0, 2.0, 0.0), 0.5));
+  scene.lights.push_back(point_light(vec3(0.0f, 2.0f, 0.0f), 10.0f));
+  update_content_hash(scene);
+  const Prepared p(std::move(scene));
+  EXPECT_GT(p.caustic.light_media[0], 0u);
+  PassSettings s = settings_for(p.scene, EmissionKind::map, FirstSurface::traced, 1, 256);
+  const LightPaths paths = trace(p, s);
+  EXPECT_EQ(paths.list.counts.medium_mismatches, 0u);
+  double sum = 0.0;
+  for (const Photon& photon : paths.list.photons)
+    if (std::hypot(photon.position.x, photon.position.z) < 1.0f) sum += mean_flux(photon);
+  const double transmitted = 1.0 - 0.2 * 0.2;
+  const double cap = 2.0 * std::numbers::pi * (1.0 - 2.0 / std::sqrt(5.0));  // solid angle of the disc
+  // 2 10^4 paths, stratified: the noise is that of the disc's border and of the choice, below 1.5 %.
+  EXPECT_NEAR(sum / (10.0 * cap * transmitted), 1.0, 0.015);
+}
+
+TEST(PhotonTrace, ADarkLightDropsOutAndAsksForNothing) {
+  Scene scene = mixed_scene();
+  scene.lights[0].intensity = 0.0f;
+  const Prepared p(std::move(scene));
+  for (const EmissionKind kind : {EmissionKind::map, EmissionKind::uniform}) {
+    const PassSettings s = settings_for(p.scene, kind, FirstSurface::stored, 4);
+    const MapSet maps = make_maps(p.caustic, s);
+    EXPECT_EQ(maps.lights_skipped, 1u);
+    EXPECT_EQ(maps.texels_traced, 0u);
+    EXPECT_EQ(trace_light_paths(p.caustic, s, maps, 0).list.counts.rays, 0u);
+  }
+}
+
+TEST(PhotonTrace, SettingsOutOfRangeAreErrors) {
+  const Prepared p(mixed_scene());
+  PassSettings s = settings_for(p.scene, EmissionKind::map, FirstSurface::stored, 4, 64);
+  for (const double rays : {0.0, -1.0, 1e9, std::nan(""), std::numeric_limits<double>::infinity()}) {
+    s.rays_per_texel = rays;
+    EXPECT_THROW(trace(p, s), InputError) << rays;
+  }
+  s.rays_per_texel = 1.0;
+  for (const int resolution : {0, -5, 65536}) {
+    s.map_resolution = resolution;
+    EXPECT_THROW(make_maps(p.caustic, s), InputError) << resolution;
+  }
+}
+
+TEST(PhotonTrace, OpenGlassAndImpossibleIndicesAreErrors) {
+  Scene open = empty_scene();
+  const uint32_t g = add_material(open, glass(1.5f));
+  add_sheet(open, g, vec3(0.0f), vec3(1.0f, 0.0f, 0.0f), vec3(0.0f, 1.0f, 0.0f));
+  update_content_hash(open);
+  EXPECT_THROW(Prepared{open}, InputError);
+  open.materials[g].thin_walled = true;
+  EXPECT_NO_THROW(Prepared{open});
+  for (const float ior : {0.9f, 0.0f, -1.0f, std::nanf(""), std::numeric_limits<float>::infinity()}) {
+    Scene scene = mixed_scene();
+    scene.materials[1].ior = ior;
+    EXPECT_THROW(Prepared{scene}, InputError) << ior;
+  }
+}
+
+}  // namespace
+}  // namespace hybray
