@@ -6,6 +6,7 @@
 #include "core/scene/closed_bodies.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -65,7 +66,7 @@ LightPaths trace_light_paths(const CausticScene& scene, const PassSettings& sett
     if (result.list.paths == 0) {
       result.list = std::move(own);
     } else {
-      result.list.photons.insert(result.list.photons.end(), own.photons.begin(), own.photons.end());
+      result.list.photons.append(std::move(own.photons));
       result.list.counts.add(own.counts);
       result.list.paths += own.paths;
     }

@@ -15,7 +15,7 @@ namespace {
 constexpr double kMostPaths = 0x1p40;
 
 // Dimensions of the random numbers below; those of the path's events come after (photon_trace.cpp).
-enum : uint32_t { kOffset, kRotation, kJitterX, kJitterY };
+enum : uint32_t { kOffset, kRotation, kJitter };
 
 // Steps of the additive sequences of low discrepancy: the golden ratio for one dimension, and the root of
 // x^3 = x + 1, which plays its part in two.
@@ -45,7 +45,7 @@ double expected_paths(const VisibilityMap& map, EmissionKind kind, double rays_p
 
 Emission::Emission(const Light& light, const VisibilityMap& map, const Bounds3& scene, EmissionKind kind,
                    double expected, uint64_t seed)
-    : light_(light),
+    : intensity_(light),
       map_(map),
       domain_(light, scene),
       seed_(seed),
@@ -72,18 +72,19 @@ PathStart Emission::from_map(uint64_t path) const {
   const MapTexel& texel = map_.texels[index];
   const LightFrame& frame = map_.frames[texel.frame].frame;
   const double i = static_cast<double>(path);
-  const double x = texel.x + fraction(random_unit(index, kJitterX, 0, seed_) + i * kPlasticX);
-  const double y = texel.y + fraction(random_unit(index, kJitterY, 0, seed_) + i * kPlasticY);
+  const uint64_t jitter = random_bits(index, kJitter, 0, seed_);
+  const double x = texel.x + fraction(static_cast<double>(jitter >> 32) * 0x1p-32 + i * kPlasticX);
+  const double y = texel.y + fraction(static_cast<double>(jitter & 0xffffffffu) * 0x1p-32 + i * kPlasticY);
 
   PathStart start;
-  start.origin = frame.ray_origin(x, y);
-  start.direction = frame.ray_direction(x, y);
+  double density = 0.0;
+  frame.ray(x, y, start.origin, start.direction, density);
   start.in_map = true;
   start.frame = texel.frame;
   start.x = texel.x, start.y = texel.y;
-  const double map_density = 1.0 / (static_cast<double>(map_.texels.size()) * frame.measure_density(x, y));
-  start.flux = intensity(light_, start.direction) /
-               (map_expected_ * map_density + domain_expected_ / domain_.measure());
+  const double map_density = 1.0 / (static_cast<double>(map_.texels.size()) * density);
+  start.flux =
+      intensity_(start.direction) / (map_expected_ * map_density + domain_expected_ / domain_.measure());
   return start;
 }
 
@@ -97,7 +98,7 @@ PathStart Emission::from_domain(uint64_t path) const {
   if (find_texel(start, image))
     density += map_expected_ / (static_cast<double>(map_.texels.size()) *
                                 map_.frames[start.frame].frame.measure_density(image.x, image.y));
-  start.flux = intensity(light_, start.direction) / density;
+  start.flux = intensity_(start.direction) / density;
   return start;
 }
 

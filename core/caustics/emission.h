@@ -46,7 +46,7 @@ class Emission {
   PathStart from_domain(uint64_t path) const;
   bool find_texel(PathStart& start, dvec2& image) const;
 
-  const Light& light_;
+  Intensity intensity_;
   const VisibilityMap& map_;
   UniformDomain domain_;
   uint64_t seed_;

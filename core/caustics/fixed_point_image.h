@@ -14,8 +14,8 @@ namespace hybray::caustics {
 class FixedPointImage {
  public:
   FixedPointImage() = default;
-  // `largest` > 0: the greatest sum that a pixel can reach. The unit is largest / 2^61: two bits are left for
-  // what an estimate of `largest` may get wrong, and additions beyond are counted instead of wrapping.
+  // `largest` > 0: the greatest sum that a pixel can reach. The unit is largest / 2^61: sums up to
+  // twice `largest` fit, for what its estimate may get wrong. Additions beyond are left out and counted.
   FixedPointImage(int width, int height, double largest);
 
   bool empty() const { return sums_.empty(); }
@@ -31,9 +31,11 @@ class FixedPointImage {
         continue;
       }
       const auto units = static_cast<int64_t>(scaled + 0.5);
-      const int64_t before = std::atomic_ref<int64_t>(sums_[3 * pixel + static_cast<size_t>(c)])
-                                 .fetch_add(units, std::memory_order_relaxed);
-      if (before > static_cast<int64_t>(kLimit) - units) count_overflow();
+      const std::atomic_ref<int64_t> sum(sums_[3 * pixel + static_cast<size_t>(c)]);
+      if (sum.fetch_add(units, std::memory_order_relaxed) > static_cast<int64_t>(kLimit) - units) {
+        sum.fetch_sub(units, std::memory_order_relaxed);  // or further additions would wrap
+        count_overflow();
+      }
     }
   }
 

@@ -6,17 +6,19 @@
 
 namespace hybray::caustics {
 
-dvec3 intensity(const Light& light, const dvec3& direction) {
-  const dvec3 full = static_cast<double>(light.intensity) * dvec3(light.color);
-  if (light.kind != LightKind::spot) return full;
+Intensity::Intensity(const Light& light)
+    : full_(static_cast<double>(light.intensity) * dvec3(light.color)),
+      axis_(light.direction),
+      spot_(light.kind == LightKind::spot) {
+  if (!spot_) return;
+  axis_ = glm::normalize(axis_);
   const double inner = std::cos(static_cast<double>(light.inner_cone_angle));
-  const double outer = std::cos(static_cast<double>(light.outer_cone_angle));
-  const double c = glm::dot(direction, glm::normalize(dvec3(light.direction)));
-  const double falloff = std::clamp((c - outer) / std::max(1e-3, inner - outer), 0.0, 1.0);
-  return full * (falloff * falloff);
+  outer_ = std::cos(static_cast<double>(light.outer_cone_angle));
+  scale_ = 1.0 / std::max(1e-3, inner - outer_);
 }
 
 bool emits(const Light& light) {
+  if (light.kind == LightKind::spot && !(light.outer_cone_angle > 0.0f)) return false;
   return light.intensity > 0.0f && (light.color.x > 0.0f || light.color.y > 0.0f || light.color.z > 0.0f);
 }
 

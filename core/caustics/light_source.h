@@ -7,14 +7,32 @@
 #include "core/gbuffer/light_frame.h"
 #include "core/scene/light.h"
 
+#include <algorithm>
+
 namespace hybray::caustics {
 
 // Intensity by channel, W/sr along unit `direction` for point and spot lights, W/m^2 for directional ones.
 // Spot lights fall off between their cones as KHR_lights_punctual says. `range` is not applied: light does
 // not end.
-dvec3 intensity(const Light& light, const dvec3& direction);
+class Intensity {
+ public:
+  explicit Intensity(const Light& light);
+  dvec3 operator()(const dvec3& direction) const {
+    if (!spot_) return full_;
+    const double falloff = std::clamp((glm::dot(direction, axis_) - outer_) * scale_, 0.0, 1.0);
+    return full_ * (falloff * falloff);
+  }
 
-// Whether the light emits anything at all.
+ private:
+  dvec3 full_, axis_;
+  bool spot_;
+  double outer_ = 0.0, scale_ = 0.0;  // cosine of the outer cone, 1 / difference of the cones' cosines
+};
+inline dvec3 intensity(const Light& light, const dvec3& direction) {
+  return Intensity(light)(direction);
+}
+
+// Whether the light emits anything at all: a cone without width does not.
 bool emits(const Light& light);
 
 // Uniform sampling of the whole domain: the sphere, the cone of a spot light, or for a directional light the

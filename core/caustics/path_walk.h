@@ -18,7 +18,7 @@ struct WalkOptions {
   // A path whose weight has fallen below this share of its initial weight survives with a probability that
   // brings it back to it (Russian roulette).
   double roulette_threshold = 0.25;
-  TraceMode mode = TraceMode::packet8;
+  TraceMode mode = TraceMode::packet16_coherent;
   uint64_t seed = 1;
 };
 
@@ -47,7 +47,7 @@ struct WalkCounts {
 
 // Paths of one block under way. Rays stand apart from the rest, as the tracer reads them.
 struct PathFront {
-  static constexpr size_t kSize = 2048;  // keeps packets well filled for several events
+  static constexpr size_t kSize = 1024;  // keeps packets well filled for several events
   std::array<vec3, kSize> origins, directions;
   std::array<Hit, kSize> hits;
   std::array<Path, kSize> paths;
@@ -81,6 +81,7 @@ class PathWalk {
     const size_t before = front.count;
     front.count = 0;
     for (size_t i = 0; i < before; ++i) {
+      prefetch(front, i, before);
       Path path = front.paths[i];
       const Hit& hit = front.hits[i];
       if (!hit.valid()) {
@@ -109,15 +110,23 @@ class PathWalk {
       counts_.medium_mismatches +=
           path.medium != (facing.from_inner ? surface.inner_medium : surface.outer_medium);
 
-    const optics::SpecularSplit split = optics::split(surface, facing.cos_incident, facing.from_inner);
     const double arriving = optics::mean(path.weight);
+    if (!surface.specular) {
+      const double entry = surface.diffuse ? arriving * surface.base : 0.0;
+      ledger.absorbed += arriving - entry;
+      if (entry > 0.0) {
+        (path.events == 0 ? ledger.direct : ledger.deposited) += entry;
+        on_diffuse(point, facing, direction, path, surface);
+      }
+      return false;
+    }
+    const optics::SpecularSplit split = optics::split(surface, facing.cos_incident, facing.from_inner);
     const double entry = surface.diffuse ? arriving * split.base_entry : 0.0;
     if (entry > 0.0) {
       (path.events == 0 ? ledger.direct : ledger.deposited) += entry;
       on_diffuse(point, facing, direction, path, surface);
     }
-    const double specular =
-        surface.specular ? optics::mean(path.weight * (split.reflectance + split.transmittance)) : 0.0;
+    const double specular = optics::mean(path.weight * (split.reflectance + split.transmittance));
     ledger.absorbed += arriving - entry - specular;
     if (!(specular > 0.0)) return false;
     if (path.events >= options_.max_events) {
@@ -130,6 +139,25 @@ class PathWalk {
   }
 
  private:
+  // Hits are scattered over memory: what the next ones need is on its way while one is worked on.
+  void prefetch(const PathFront& front, size_t i, size_t count) const {
+    constexpr size_t kTriangleAhead = 8, kVertexAhead = 4;
+    const Scene& scene = tracer_.scene();
+    const auto triangle = [&](size_t k) -> const uvec3* {
+      const uint32_t primitive = k < count ? front.hits[k].primitive : kNoPrimitive;
+      return primitive < scene.triangles.size() ? &scene.triangles[primitive] : nullptr;
+    };
+    if (const uvec3* t = triangle(i + kTriangleAhead)) {
+      __builtin_prefetch(t);
+      __builtin_prefetch(&scene.triangle_material[front.hits[i + kTriangleAhead].primitive]);
+    }
+    if (const uvec3* t = triangle(i + kVertexAhead))
+      for (const uint32_t v : {t->x, t->y, t->z}) {
+        __builtin_prefetch(&scene.positions[v]);
+        __builtin_prefetch(&scene.normals[v]);
+      }
+  }
+
   void absorb(double length, Path& path) {
     const dvec3& a = optics_.media[path.medium].absorption;
     if (a == dvec3(0.0)) return;

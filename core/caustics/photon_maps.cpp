@@ -34,40 +34,59 @@ Bounds3 sphere_box(const VisibilityPoint& point) {
   return {point.position - point.radius, point.position + point.radius};
 }
 
+// Backward maps: every photon looks for the spheres that it lies in.
+PhotonMapCounts scatter(const Scene& scene, const optics::OpticsTable& optics, const PhotonBlocks& photons,
+                        const std::vector<VisibilityPoint>& points, FixedPointImage& image) {
+  std::vector<Bounds3> boxes(points.size());
+  std::vector<uint32_t> primitives(points.size());
+  parallel_blocks(points.size(), kBlock, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i)
+      boxes[i] = sphere_box(points[i]), primitives[i] = points[i].primitive;
+  });
+  const GroupedTree tree(scene, boxes, primitives);
+  std::atomic<uint64_t> pairs{0};
+  parallel_blocks(photons.blocks().size(), 1, [&](size_t begin, size_t) {
+    uint64_t mine = 0;
+    for (const Photon& photon : photons.blocks()[begin])
+      tree.visit(Bounds3{photon.position, photon.position},
+                 [&](size_t i) { mine += add_pair(photon, points[i], optics, image); });
+    pairs += mine;
+  });
+  return {pairs, tree.memory_bytes()};
+}
+
+// Forward maps: every visibility point looks for the photons in its sphere.
+PhotonMapCounts gather(const Scene& scene, const optics::OpticsTable& optics, const PhotonBlocks& photons,
+                       const std::vector<VisibilityPoint>& points, FixedPointImage& image) {
+  std::vector<const Photon*> items;
+  items.reserve(photons.size());
+  photons.for_each([&](const Photon& photon) { items.push_back(&photon); });
+  std::vector<Bounds3> boxes(items.size());
+  std::vector<uint32_t> primitives(items.size());
+  parallel_blocks(items.size(), kBlock, [&](size_t begin, size_t end) {
+    for (size_t i = begin; i < end; ++i)
+      boxes[i] = {items[i]->position, items[i]->position}, primitives[i] = items[i]->primitive;
+  });
+  const GroupedTree tree(scene, boxes, primitives);
+  std::atomic<uint64_t> pairs{0};
+  parallel_blocks(points.size(), kBlock, [&](size_t begin, size_t end) {
+    uint64_t mine = 0;
+    for (size_t i = begin; i < end; ++i)
+      tree.visit(sphere_box(points[i]),
+                 [&](size_t j) { mine += add_pair(*items[j], points[i], optics, image); });
+    pairs += mine;
+  });
+  return {pairs, tree.memory_bytes()};
+}
+
 }  // namespace
 
 PhotonMapCounts add_mixed_caustics(PhotonMapKind kind, const Scene& scene, const optics::OpticsTable& optics,
-                                   std::span<const Photon> photons, const VisibilityPoints& visible,
+                                   const PhotonBlocks& photons, const VisibilityPoints& visible,
                                    FixedPointImage& image) {
-  PhotonMapCounts counts;
-  const std::vector<VisibilityPoint>& points = visible.points;
-  if (photons.empty() || points.empty()) return counts;
-  const bool backward = kind == PhotonMapKind::backward;
-  const size_t items = backward ? points.size() : photons.size();
-  std::vector<Bounds3> boxes(items);
-  std::vector<uint32_t> primitives(items);
-  for (size_t i = 0; i < items; ++i) {
-    boxes[i] = backward ? sphere_box(points[i]) : Bounds3{photons[i].position, photons[i].position};
-    primitives[i] = backward ? points[i].primitive : photons[i].primitive;
-  }
-  const GroupedTree tree(scene, boxes, primitives);
-  counts.tree_bytes = tree.memory_bytes();
-
-  std::atomic<uint64_t> pairs{0};
-  parallel_blocks(backward ? photons.size() : points.size(), kBlock, [&](size_t begin, size_t end) {
-    uint64_t mine = 0;
-    for (size_t i = begin; i < end; ++i) {
-      if (backward)
-        tree.visit(Bounds3{photons[i].position, photons[i].position},
-                   [&](size_t j) { mine += add_pair(photons[i], points[j], optics, image); });
-      else
-        tree.visit(sphere_box(points[i]),
-                   [&](size_t j) { mine += add_pair(photons[j], points[i], optics, image); });
-    }
-    pairs += mine;
-  });
-  counts.pairs = pairs;
-  return counts;
+  if (photons.empty() || visible.points.empty()) return {};
+  return kind == PhotonMapKind::backward ? scatter(scene, optics, photons, visible.points, image)
+                                         : gather(scene, optics, photons, visible.points, image);
 }
 
 double largest_radiance(double flux, const VisibilityPoints& visible) {
@@ -79,7 +98,8 @@ double largest_radiance(double flux, const VisibilityPoints& visible) {
   // All flux, on every path of one pixel.
   const double paths =
       visible.pixels > 0 ? static_cast<double>(visible.paths) / static_cast<double>(visible.pixels) : 1.0;
-  return std::max(1e-300, paths * flux * most * std::numbers::inv_pi * std::numbers::inv_pi);
+  // Not so small that the scale of a FixedPointImage would be infinite.
+  return std::max(1e-280, paths * flux * most * std::numbers::inv_pi * std::numbers::inv_pi);
 }
 
 }  // namespace hybray::caustics

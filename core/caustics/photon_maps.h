@@ -4,12 +4,10 @@
 #pragma once
 
 #include "core/caustics/fixed_point_image.h"
-#include "core/caustics/photon.h"
+#include "core/caustics/photon_blocks.h"
 #include "core/caustics/visibility_points.h"
 #include "core/optics/surface_optics.h"
 #include "core/scene/scene.h"
-
-#include <span>
 
 namespace hybray::caustics {
 
@@ -27,7 +25,7 @@ struct PhotonMapCounts {
 // integration sphere and on the same side of a surface turned by less than 45 degrees. A photon counts by the
 // place where it arrived, not by where its ray crosses the sphere.
 PhotonMapCounts add_mixed_caustics(PhotonMapKind kind, const Scene& scene, const optics::OpticsTable& optics,
-                                   std::span<const Photon> photons, const VisibilityPoints& visible,
+                                   const PhotonBlocks& photons, const VisibilityPoints& visible,
                                    FixedPointImage& image);
 
 // The greatest radiance that `flux` watts can give one pixel through these points, for the scale of a

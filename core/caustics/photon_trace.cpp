@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
+#include <vector>
 
 namespace hybray::caustics {
 namespace {
@@ -57,9 +59,14 @@ void trace_photons(const Tracer& tracer, const optics::OpticsTable& optics, cons
   HYBRAY_CHECK_LE(1, options.max_events);
   HYBRAY_CHECK_LE(first + count, emission.paths());
   constexpr size_t kBlock = PathFront::kSize;
-  std::vector<PhotonList> blocks((count + kBlock - 1) / kBlock);
+  struct Block {
+    std::vector<Photon> photons;
+    WalkCounts counts;
+  };
+  std::vector<Block> blocks((count + kBlock - 1) / kBlock);
   parallel_blocks(count, kBlock, [&](size_t begin, size_t end) {
-    PhotonList& mine = blocks[begin / kBlock];
+    Block& mine = blocks[begin / kBlock];
+    mine.photons.reserve(end - begin);
     const auto front = std::make_unique<PathFront>();
     PathWalk walk(tracer, optics, options, mine.counts);
     const auto deposit = [&](const SurfacePoint& point, const optics::Facing& facing, const dvec3& direction,
@@ -86,12 +93,8 @@ void trace_photons(const Tracer& tracer, const optics::OpticsTable& optics, cons
     while (front->count > 0) walk.advance(*front, deposit);
   });
 
-  size_t total = out.photons.size();
-  for (const PhotonList& block : blocks) total += block.photons.size();
-  out.photons.reserve(total);
-  for (PhotonList& block : blocks) {
-    out.photons.insert(out.photons.end(), block.photons.begin(), block.photons.end());
-    std::vector<Photon>().swap(block.photons);
+  for (Block& block : blocks) {
+    out.photons.append(std::move(block.photons));
     out.counts.add(block.counts);
   }
   out.paths += count;

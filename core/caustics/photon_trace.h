@@ -4,8 +4,7 @@
 
 #include "core/caustics/emission.h"
 #include "core/caustics/path_walk.h"
-
-#include <vector>
+#include "core/caustics/photon_blocks.h"
 
 namespace hybray::caustics {
 
@@ -17,7 +16,7 @@ enum class FirstSurface : uint8_t {
 
 // Photons in the order of their paths, with the account.
 struct PhotonList {
-  std::vector<Photon> photons;
+  PhotonBlocks photons;
   WalkCounts counts;
   uint64_t paths = 0;
 };

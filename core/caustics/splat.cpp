@@ -11,8 +11,6 @@
 namespace hybray::caustics {
 namespace {
 
-constexpr size_t kBlock = 8192;
-
 double mean_flux(const Photon& photon) {
   return (static_cast<double>(photon.flux.x) + static_cast<double>(photon.flux.y) +
           static_cast<double>(photon.flux.z)) /
@@ -33,7 +31,7 @@ bool agrees(const GBuffer& camera, double w, const dvec2& place, int x, int y) {
 
 }  // namespace
 
-SplatCounts splat(std::span<const Photon> photons, const GBuffer& camera, const optics::OpticsTable& optics,
+SplatCounts splat(const PhotonBlocks& photons, const GBuffer& camera, const optics::OpticsTable& optics,
                   Visibility visibility, const Tracer& tracer, FixedPointImage& image) {
   const View& view = camera.view;
   HYBRAY_CHECK_EQ(image.width(), view.width());
@@ -41,11 +39,10 @@ SplatCounts splat(std::span<const Photon> photons, const GBuffer& camera, const 
   if (visibility == Visibility::depth)
     HYBRAY_CHECK(!camera.depth.empty() && !camera.depth_derivatives.empty());
 
-  std::vector<SplatCounts> blocks((photons.size() + kBlock - 1) / kBlock);
-  parallel_blocks(photons.size(), kBlock, [&](size_t begin, size_t end) {
-    SplatCounts& counts = blocks[begin / kBlock];
-    for (size_t i = begin; i < end; ++i) {
-      const Photon& photon = photons[i];
+  std::vector<SplatCounts> blocks(photons.blocks().size());
+  parallel_blocks(blocks.size(), 1, [&](size_t begin, size_t) {
+    SplatCounts& counts = blocks[begin];
+    for (const Photon& photon : photons.blocks()[begin]) {
       const double flux = mean_flux(photon);
       const dvec3 p(photon.position), n(photon.normal);
       const double w = view.view_depth(p);
@@ -102,7 +99,8 @@ double largest_radiance(double flux, const GBuffer& camera) {
   // In a corner of the image the distance d is longer than the depth w: d / w^3 grows with it.
   const double corner =
       std::hypot(1.0, 0.5 * view.width() / view.focal(), 0.5 * view.height() / view.focal());
-  return std::max(1e-300, flux * view.focal() * view.focal() * corner / (std::numbers::pi * w * w));
+  // Not so small that the scale of a FixedPointImage would be infinite.
+  return std::max(1e-280, flux * view.focal() * view.focal() * corner / (std::numbers::pi * w * w));
 }
 
 }  // namespace hybray::caustics

@@ -2,11 +2,9 @@
 #pragma once
 
 #include "core/caustics/fixed_point_image.h"
-#include "core/caustics/photon.h"
+#include "core/caustics/photon_blocks.h"
 #include "core/gbuffer/gbuffer.h"
 #include "core/optics/surface_optics.h"
-
-#include <span>
 
 namespace hybray::caustics {
 
@@ -34,7 +32,7 @@ struct SplatCounts {
 // With Visibility::depth the G-buffer must hold depth and depth derivatives: a photon is seen if its depth is
 // that of its pixel's plane at its own place, to within one pixel footprint. `tracer` is used by
 // Visibility::shadow alone.
-SplatCounts splat(std::span<const Photon> photons, const GBuffer& camera, const optics::OpticsTable& optics,
+SplatCounts splat(const PhotonBlocks& photons, const GBuffer& camera, const optics::OpticsTable& optics,
                   Visibility visibility, const Tracer& tracer, FixedPointImage& image);
 
 // The greatest radiance that `flux` watts can give one pixel, for the scale of a FixedPointImage: all of it

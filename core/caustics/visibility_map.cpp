@@ -70,9 +70,11 @@ void add_frame(VisibilityMap& map, const Scene& scene, const optics::OpticsTable
   if (map.texels.size() > before) map.frames.push_back(std::move(result));
 }
 
-// Frames that the light has when nothing is culled.
-int full_frames(const Light& light) {
-  return light.kind == LightKind::point ? 6 : 1;
+// Frames that the light has when nothing is culled: those that see a box around it.
+size_t full_frames(const Light& light) {
+  const vec3 reach = 1.0f + 0.5f * glm::abs(light.position);
+  const Bounds3 around{light.position - reach, light.position + reach};
+  return light_frames(light, {&around, 1}, around, 1).size();
 }
 
 }  // namespace

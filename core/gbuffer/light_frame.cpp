@@ -131,6 +131,20 @@ dvec3 LightFrame::ray_direction(double x, double y) const {
                         (2.0 * y / height - 1.0) * half_height * down);
 }
 
+void LightFrame::ray(double x, double y, dvec3& o, dvec3& d, double& density) const {
+  const double a = (2.0 * x / width - 1.0) * half_width, b = (2.0 * y / height - 1.0) * half_height;
+  density = 4.0 * half_width * half_height / (static_cast<double>(width) * height);
+  if (orthographic) {
+    o = origin + a * right + b * down;
+    d = forward;
+    return;
+  }
+  const double scale = 1.0 / std::sqrt(1.0 + a * a + b * b);
+  o = origin;
+  d = scale * (forward + a * right + b * down);
+  density *= scale * scale * scale;
+}
+
 double LightFrame::measure_density(double x, double y) const {
   const double area = 4.0 * half_width * half_height / (static_cast<double>(width) * height);
   if (orthographic) return area;

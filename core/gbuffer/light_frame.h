@@ -26,6 +26,9 @@ struct LightFrame {
   dvec3 ray_origin(double x, double y) const;
   dvec3 ray_direction(double x, double y) const;
 
+  // The same ray, and the measure_density there, at once.
+  void ray(double x, double y, dvec3& ray_origin, dvec3& ray_direction, double& density) const;
+
   // Solid angle (orthographic: area, m^2) of the image per texel area at (x, y).
   double measure_density(double x, double y) const;
   // Solid angle of texel (x, y), sr, exact (four corners); orthographic: its area, m^2.

@@ -19,19 +19,6 @@ bool refraction(const Facing& f, const dvec3& direction, double eta, dvec3& out)
 
 }  // namespace
 
-Facing facing(const SurfacePoint& point, const dvec3& direction) {
-  Facing f;
-  f.from_inner = glm::dot(direction, point.geometric_normal) > 0.0;
-  f.geometric = f.from_inner ? -point.geometric_normal : point.geometric_normal;
-  f.shading = f.from_inner ? -point.shading_normal : point.shading_normal;
-  f.cos_incident = -glm::dot(direction, f.shading);
-  if (!(f.cos_incident > 0.0)) {
-    f.shading = f.geometric;
-    f.cos_incident = -glm::dot(direction, f.geometric);
-  }
-  return f;
-}
-
 SpecularChoice choose_specular(const SurfaceOptics& s, const SurfacePoint& point, const Facing& f,
                                const SpecularSplit& shares, const dvec3& direction, const dvec3& weight,
                                uint16_t medium, double u) {

@@ -15,7 +15,18 @@ struct Facing {
 };
 
 // Where the shading normal turns away from the path, the geometric normal stands in for it.
-Facing facing(const SurfacePoint& point, const dvec3& direction);
+inline Facing facing(const SurfacePoint& point, const dvec3& direction) {
+  Facing f;
+  f.from_inner = glm::dot(direction, point.geometric_normal) > 0.0;
+  f.geometric = f.from_inner ? -point.geometric_normal : point.geometric_normal;
+  f.shading = f.from_inner ? -point.shading_normal : point.shading_normal;
+  f.cos_incident = -glm::dot(direction, f.shading);
+  if (!(f.cos_incident > 0.0)) {
+    f.shading = f.geometric;
+    f.cos_incident = -glm::dot(direction, f.geometric);
+  }
+  return f;
+}
 
 struct SpecularChoice {
   dvec3 weight{0.0};     // of the path after the event, by channel; zero: nothing goes on

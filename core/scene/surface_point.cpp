@@ -36,9 +36,9 @@ SurfacePoint surface_point(const Scene& scene, uint32_t primitive, float u, floa
   p.position = a + static_cast<double>(u) * ab + static_cast<double>(v) * ac;
   p.geometric_normal = glm::normalize(glm::cross(ab, ac));
   const vec3 n = (1.0f - u - v) * scene.normals[tri.x] + u * scene.normals[tri.y] + v * scene.normals[tri.z];
-  const double length = glm::length(dvec3(n));
+  const float length = glm::length(n);
   // Opposite vertex normals can cancel: the triangle's own normal is then the only one there is.
-  p.shading_normal = length > 1e-6 ? dvec3(n) / length : p.geometric_normal;
+  p.shading_normal = length > 1e-6f ? dvec3(n * (1.0f / length)) : p.geometric_normal;
   p.material = scene.triangle_material[primitive];
   p.offset = kOffset * std::max({largest(p.position), largest(ab), largest(ac)});
   return p;

@@ -24,7 +24,7 @@ struct CausticReferenceSettings {
   double radius_pixels = 2.0;    // of the integration spheres in the first pass
   int camera_paths = 1;          // of each pixel and pass
   std::vector<uint32_t> lights;  // into Scene::lights
-  TraceMode mode = TraceMode::packet8;
+  TraceMode mode = TraceMode::packet16_coherent;
   uint64_t seed = 1;
 };
 

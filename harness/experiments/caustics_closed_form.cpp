@@ -10,17 +10,17 @@ ClosedFormTally::ClosedFormTally(const Scene& scene, int max_events)
   if (form_) flux_.resize(form_->regions.size());
 }
 
-void ClosedFormTally::add(std::span<const caustics::Photon> photons) {
+void ClosedFormTally::add(const caustics::PhotonBlocks& photons) {
   if (!form_) return;
   std::vector<double> sums(flux_.size(), 0.0);
-  for (const caustics::Photon& photon : photons) {
-    if (!form_->receives(photon.primitive)) continue;
+  photons.for_each([&](const caustics::Photon& photon) {
+    if (!form_->receives(photon.primitive)) return;
     const double flux = (static_cast<double>(photon.flux.x) + static_cast<double>(photon.flux.y) +
                          static_cast<double>(photon.flux.z)) /
                         3.0;
     for (size_t r = 0; r < sums.size(); ++r)
       if (form_->regions[r].contains(dvec3(photon.position))) sums[r] += flux;
-  }
+  });
   for (size_t r = 0; r < sums.size(); ++r) flux_[r].push_back(sums[r]);
 }
 

@@ -1,12 +1,11 @@
 // Photons counted in the regions of a scene's closed form, frame by frame.
 #pragma once
 
-#include "core/caustics/photon.h"
+#include "core/caustics/photon_blocks.h"
 #include "core/truth/closed_forms.h"
 #include "harness/experiments/experiment.h"
 
 #include <optional>
-#include <span>
 #include <vector>
 
 namespace hybray::caustics_parts {
@@ -17,7 +16,7 @@ class ClosedFormTally {
   ClosedFormTally(const Scene& scene, int max_events);
 
   // The photons of one independent frame.
-  void add(std::span<const caustics::Photon> photons);
+  void add(const caustics::PhotonBlocks& photons);
 
   // Cells closed_form_error_fraction, closed_form_z, closed_form_standard_error_fraction.
   void report(Row& row) const;

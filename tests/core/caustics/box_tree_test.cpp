@@ -66,7 +66,13 @@ TEST(BoxTree, BoxesThatTouchOverlap) {
   const std::vector<Bounds3> boxes = {{vec3(0.0f), vec3(1.0f)}};
   const BoxTree tree(boxes);
   EXPECT_EQ(visits(tree, {vec3(1.0f), vec3(2.0f)}, 1)[0], 1);
-  EXPECT_EQ(visits(tree, {vec3(1.0f, 0.5f, 1.001f), vec3(2.0f)}, 1)[0], 0);
+  EXPECT_EQ(visits(tree, {vec3(-1.0f), vec3(0.0f)}, 1)[0], 1);
+  for (int c = 0; c < 3; ++c) {
+    Bounds3 above{vec3(0.5f), vec3(2.0f)}, below{vec3(-1.0f), vec3(0.5f)};
+    above.lower[c] = 1.001f, below.upper[c] = -0.001f;
+    EXPECT_EQ(visits(tree, above, 1)[0], 0) << c;
+    EXPECT_EQ(visits(tree, below, 1)[0], 0) << c;
+  }
   EXPECT_EQ(visits(tree, {vec3(0.5f), vec3(0.5f)}, 1)[0], 1) << "a point";
 }
 

@@ -5,9 +5,10 @@
 #include "core/base/parallel.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -54,14 +55,21 @@ TEST(FixedPointImage, IsTheSameInAnyOrderAndOnAnyNumberOfThreads) {
 }
 
 TEST(FixedPointImage, ManyThreadsOnOnePixelLoseNothing) {
-  FixedPointImage image(1, 1, 1e6);
-  parallel_blocks(1000000, 16, [&](size_t begin, size_t end) {
-    for (size_t i = begin; i < end; ++i) image.add(0, dvec3(1.0, 0.5, 0.25));
-  });
-  // Powers of two of a unit of 1e6 / 2^61: exact but for that unit's own rounding.
-  EXPECT_FLOAT_EQ(image.image()(0, 0).x, 1e6f);
-  EXPECT_FLOAT_EQ(image.image()(0, 0).y, 5e5f);
-  EXPECT_FLOAT_EQ(image.image(3.0)(0, 0).z, 7.5e5f);
+  // Long enough that threads do meet even where cores are few and busy.
+  constexpr int kEach = 2000000;
+  FixedPointImage image(1, 1, 4.0 * kEach);
+  std::atomic<int> waiting{4};
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 4; ++t)
+    threads.emplace_back([&] {
+      for (--waiting; waiting > 0;) std::this_thread::yield();
+      for (int i = 0; i < kEach; ++i) image.add(0, dvec3(1.0, 0.5, 0.25));
+    });
+  for (std::thread& thread : threads) thread.join();
+  // All numbers are whole multiples of the unit but for its own rounding.
+  EXPECT_FLOAT_EQ(image.image()(0, 0).x, 8e6f);
+  EXPECT_FLOAT_EQ(image.image()(0, 0).y, 4e6f);
+  EXPECT_FLOAT_EQ(image.image(3.0)(0, 0).z, 6e6f);
 }
 
 TEST(FixedPointImage, SumsAreRightToTheRoundingOfEachAddition) {

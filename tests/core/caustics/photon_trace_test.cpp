@@ -48,7 +48,7 @@ TEST(PhotonTrace, TheLedgerClosesForEveryKindOfMaterialEmissionAndDepth) {
         // The photons carry what the ledger says was deposited, less the share that the coat of glossy paint
         // turned back: that part went on along the path.
         double carried = 0.0;
-        for (const Photon& photon : paths.list.photons) carried += mean_flux(photon);
+        paths.list.photons.for_each([&](const Photon& photon) { carried += mean_flux(photon); });
         EXPECT_GE(carried, l.deposited * (1.0 - 1e-6));
         EXPECT_LE(carried, l.deposited * 1.25);
       }
@@ -77,18 +77,20 @@ TEST(PhotonTrace, PhotonsAreTheSameBitsAtAnyNumberOfThreads) {
     const LightPaths paths = trace(p, s);
     ASSERT_GT(paths.list.photons.size(), 1000u);
     if (first.empty()) {
-      first = paths.list.photons;
+      paths.list.photons.for_each([&](const Photon& photon) { first.push_back(photon); });
       continue;
     }
     ASSERT_EQ(first.size(), paths.list.photons.size());
-    EXPECT_EQ(std::memcmp(first.data(), paths.list.photons.data(), first.size() * sizeof(Photon)), 0);
+    size_t i = 0;
+    paths.list.photons.for_each(
+        [&](const Photon& photon) { EXPECT_EQ(std::memcmp(&first[i++], &photon, sizeof(Photon)), 0); });
   }
 }
 
 TEST(PhotonTrace, NothingIsNegativeOrNotANumber) {
   const Prepared p(mixed_scene());
   const LightPaths paths = trace(p, settings_for(p.scene, EmissionKind::mixture, FirstSurface::stored, 16));
-  for (const Photon& photon : paths.list.photons) {
+  paths.list.photons.for_each([&](const Photon& photon) {
     for (int c = 0; c < 3; ++c) {
       ASSERT_GE(photon.flux[c], 0.0f);
       ASSERT_TRUE(std::isfinite(photon.flux[c]) && std::isfinite(photon.position[c]));
@@ -96,7 +98,7 @@ TEST(PhotonTrace, NothingIsNegativeOrNotANumber) {
     ASSERT_TRUE(std::isfinite(photon.shading_ratio) && photon.shading_ratio >= 0.0f);
     ASSERT_NEAR(glm::length(photon.direction), 1.0f, 1e-5f);
     ASSERT_LT(glm::dot(photon.direction, photon.normal), 0.0f);
-  }
+  });
 }
 
 // Mean deposited flux and its standard error over independent samples.
@@ -207,8 +209,9 @@ TEST(PhotonTrace, ALightInsideGlassShinesOut) {
   const LightPaths paths = trace(p, s);
   EXPECT_EQ(paths.list.counts.medium_mismatches, 0u);
   double sum = 0.0;
-  for (const Photon& photon : paths.list.photons)
+  paths.list.photons.for_each([&](const Photon& photon) {
     if (std::hypot(photon.position.x, photon.position.z) < 1.0f) sum += mean_flux(photon);
+  });
   const double transmitted = 1.0 - 0.2 * 0.2;
   const double cap = 2.0 * std::numbers::pi * (1.0 - 2.0 / std::sqrt(5.0));  // solid angle of the disc
   // 2 10^4 paths, stratified: the noise is that of the disc's border and of the choice, below 1.5 %.

@@ -68,14 +68,14 @@ TEST_P(CausticClosedForm, IsWhatLightTracingFinds) {
       EXPECT_NEAR(paths.list.counts.ledger.total() / paths.list.counts.ledger.emitted, 1.0, 1e-9);
       // Paths that meet a prism within rounding of an edge may pass its other face unseen.
       EXPECT_LE(paths.list.counts.medium_mismatches, paths.list.counts.rays / 10000);
-      for (const Photon& photon : paths.list.photons) {
-        if (!form->receives(photon.primitive)) continue;
+      paths.list.photons.for_each([&](const Photon& photon) {
+        if (!form->receives(photon.primitive)) return;
         for (size_t r = 0; r < flux.size(); ++r)
           if (form->regions[r].contains(dvec3(photon.position)))
             flux[r][b] += (static_cast<double>(photon.flux.x) + static_cast<double>(photon.flux.y) +
                            static_cast<double>(photon.flux.z)) /
                           3.0;
-      }
+      });
     }
     bool sharp = true;
     std::vector<double> means, errors;

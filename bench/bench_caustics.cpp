@@ -1,0 +1,136 @@
+// Forward tracing of caustic paths beside the bare tracer on the very same rays, in every mode, and the other
+// stages of the pass. Compare ForwardTrace with the fastest BareTrace of its scene; run with
+// --benchmark_enable_random_interleaving=true.
+#include "core/base/parallel.h"
+#include "core/caustics/caustic_pass.h"
+#include "core/scene/scene_library.h"
+
+#include <map>
+#include <memory>
+
+#include <benchmark/benchmark.h>
+
+namespace hybray::bench {
+namespace {
+
+using namespace caustics;
+using State = benchmark::State;
+
+constexpr double kRaysPerTexel = 1.0;
+constexpr size_t kBlock = PathFront::kSize;
+
+// Rays of one front, as the walk handed them to the tracer.
+struct Batch {
+  std::vector<vec3> origins, directions;
+};
+
+struct CausticBench {
+  explicit CausticBench(const std::string& name)
+      : scene(load_scene(default_scene_paths(HYBRAY_PROJECT_DIR), name)), tracer(scene, {}), caustic(tracer) {
+    for (uint32_t i = 0; i < scene.lights.size(); ++i) settings.lights.push_back(i);
+    settings.first_surface = FirstSurface::traced;
+    settings.rays_per_texel = kRaysPerTexel;
+    settings.walk.max_events = 4;
+    maps = make_maps(caustic, settings);
+    record();
+  }
+
+  // Walks all paths once more, keeping every ray in the order of the walk.
+  void record() {
+    WalkCounts counts;
+    const auto nothing = [](const auto&...) {};
+    for (const VisibilityMap& map : maps.maps) {
+      const Emission emission(scene.lights[map.light], map, scene.bounds, settings.emission,
+                              expected_paths(map, settings.emission, settings.rays_per_texel), 1);
+      for (uint64_t first = 0; first < emission.paths(); first += kBlock) {
+        const auto front = std::make_unique<PathFront>();
+        PathWalk walk(tracer, caustic.optics, settings.walk, counts);
+        for (uint64_t i = first; i < std::min(first + kBlock, emission.paths()); ++i) {
+          const PathStart start = emission.start(i);
+          Path path;
+          path.weight = start.flux;
+          path.initial = optics::mean(start.flux);
+          path.number = i;
+          path.medium = caustic.light_media[map.light];
+          front->push(start.origin, start.direction, path);
+        }
+        while (front->count > 0) {
+          batches.push_back({{front->origins.begin(), front->origins.begin() + front->count},
+                             {front->directions.begin(), front->directions.begin() + front->count}});
+          rays += front->count;
+          walk.advance(*front, nothing);
+        }
+      }
+    }
+  }
+
+  Scene scene;
+  Tracer tracer;
+  CausticScene caustic;
+  PassSettings settings;
+  MapSet maps;
+  std::vector<Batch> batches;
+  size_t rays = 0;
+};
+
+CausticBench& caustic_bench(const std::string& scene) {
+  static std::map<std::string, std::unique_ptr<CausticBench>> all;
+  auto& one = all[scene];
+  if (!one) one = std::make_unique<CausticBench>(scene);
+  return *one;
+}
+
+void per_second(State& state, size_t rays) {
+  state.counters["rays_per_second"] =
+      benchmark::Counter(static_cast<double>(rays), benchmark::Counter::kIsIterationInvariantRate);
+}
+
+void forward_trace(State& state, CausticBench& b) {
+  size_t rays = 0;
+  for (auto _ : state) rays = trace_light_paths(b.caustic, b.settings, b.maps, 0).list.counts.rays;
+  per_second(state, rays);
+}
+
+template <TraceMode kMode>
+void bare_trace(State& state, CausticBench& b) {
+  for (auto _ : state)
+    parallel_blocks(b.batches.size(), 1, [&](size_t begin, size_t) {
+      std::vector<Hit> hits(b.batches[begin].origins.size());
+      b.tracer.intersect_batch(b.batches[begin].origins, b.batches[begin].directions, hits, kMode);
+      benchmark::DoNotOptimize(hits.data());
+    });
+  per_second(state, b.rays);
+}
+
+void maps(State& state, CausticBench& b) {
+  for (auto _ : state) benchmark::DoNotOptimize(make_maps(b.caustic, b.settings));
+}
+
+void register_stage(const std::string& name, const std::string& scene, void (*run)(State&, CausticBench&)) {
+  benchmark::RegisterBenchmark((name + "/" + scene).c_str(),
+                               [=](State& state) { run(state, caustic_bench(scene)); })
+      ->UseRealTime()
+      ->Unit(benchmark::kMillisecond);
+}
+
+template <TraceMode kMode>
+void register_bare(const std::string& scene) {
+  register_stage(std::string("BareTrace/") + label(kMode), scene, bare_trace<kMode>);
+}
+
+}  // namespace
+
+void register_caustics() {
+  for (const char* scene : {"atrium_lamps", "glass_ball", "wine_glass"}) {
+    register_stage("VisibilityMaps", scene, maps);
+    register_stage("ForwardTrace", scene, forward_trace);
+    register_bare<TraceMode::single>(scene);
+    register_bare<TraceMode::packet4>(scene);
+    register_bare<TraceMode::packet8>(scene);
+    register_bare<TraceMode::packet16>(scene);
+    register_bare<TraceMode::packet8_coherent>(scene);
+    register_bare<TraceMode::packet16_coherent>(scene);
+  }
+}
+
+}  // namespace hybray::bench
