@@ -20,6 +20,9 @@ NEEDED = ("total_ms", "total_spread_ms", "repeats", "lights_visible", "lights_in
 KEYS = ("scene", "camera", "width", "height", "caustics", "map_resolution", "rays_per_texel", "mirror_depth", "lights_visible",
         "lights_invisible", "emission", "first_surface", "visibility", "mixed", "gather_radius", "camera_paths",
         "roulette_threshold", "filter", "threads")
+# What stands beside a swept parameter, where the table has it.
+SHOWN = ("total_ms", "relmse", "reference_relmse", "energy_ratio", "rmse", "median_relative_error", "closed_form_error_fraction",
+          "closed_form_z", "truncated_fraction", "efficiency")
 LIGHTS = {"lights_visible", "lights_invisible"}
 Row = dict[str, str]
 Vector = list[float]
@@ -185,12 +188,11 @@ def curvature(points: list[tuple[float, float, float]], values: Vector, linear: 
 
 def against(rows: list[Row], column: str, text: str) -> None:
     """Error and time against one swept parameter."""
-    shown = [c for c in ("total_ms", "relmse", "reference_relmse", "energy_ratio", "rmse", "median_relative_error", "efficiency")
-             if c in rows[0]]
     for group, members in groups_of(rows, {column}).items():
         ordered = sorted((r for r in members if number(r, column) is not None), key=lambda r: number(r, column))
         if len({number(r, column) for r in ordered}) < 2:
             continue
+        shown = [c for c in SHOWN if any(number(r, c) is not None for r in ordered)]
         title(text, group)
         first = number(ordered[0], "total_ms")
         lines = []
@@ -199,7 +201,9 @@ def against(rows: list[Row], column: str, text: str) -> None:
             floor = " (at the floor)" if error is not None and own is not None and error < 3.0 * own else ""
             cells = [significant(number(row, c)) + (floor if c == "relmse" else "") for c in shown]
             lines.append([row[column], *cells, significant(time / first if time is not None and first else None)])
-        markdown([column, *shown, "time / first"], lines)
+        if first is None:
+            lines = [line[:-1] for line in lines]
+        markdown([column, *shown, *([] if first is None else ["time / first"])], lines)
 
 
 def main() -> int:
@@ -216,6 +220,10 @@ def main() -> int:
     if missing:
         print(f"caustics_fit: {path}: not a table of the experiment caustics with at least one row "
               f"(column {missing[0]} is missing)", file=sys.stderr)
+        return 2
+    rows = [r for r in rows if r.get("caustics") != "false"]  # of the main view alone
+    if not rows:
+        print(f"caustics_fit: {path}: no point has caustics", file=sys.stderr)
         return 2
     print(f"{len(rows)} points. Times of other machines do not compare; the ratio b / a does.")
     fitted = False

@@ -56,6 +56,8 @@ Emission::Emission(const Light& light, const VisibilityMap& map, const Bounds3& 
   if (kind == EmissionKind::map) HYBRAY_CHECK(!map.texels.empty());
   map_expected_ = kind == EmissionKind::map ? expected : kind == EmissionKind::mixture ? 0.5 * expected : 0.0;
   domain_expected_ = expected - map_expected_;
+  domain_density_ = domain_expected_ / domain_.measure();
+  texels_a_path_ = static_cast<double>(map.texels.size()) / map_expected_;
   map_paths_ = paths_of(map_expected_, map_offset_);
   domain_paths_ = paths_of(domain_expected_, domain_offset_);
 }
@@ -65,10 +67,9 @@ PathStart Emission::start(uint64_t path) const {
 }
 
 PathStart Emission::from_map(uint64_t path) const {
-  const double position = (static_cast<double>(path) + map_offset_) / map_expected_;
   const size_t last = map_.texels.size() - 1;
   const size_t index =
-      std::min(last, static_cast<size_t>(position * static_cast<double>(map_.texels.size())));
+      std::min(last, static_cast<size_t>((static_cast<double>(path) + map_offset_) * texels_a_path_));
   const MapTexel& texel = map_.texels[index];
   const LightFrame& frame = map_.frames[texel.frame].frame;
   const double i = static_cast<double>(path);
@@ -82,9 +83,9 @@ PathStart Emission::from_map(uint64_t path) const {
   start.in_map = true;
   start.frame = texel.frame;
   start.x = texel.x, start.y = texel.y;
-  const double map_density = 1.0 / (static_cast<double>(map_.texels.size()) * density);
-  start.flux =
-      intensity_(start.direction) / (map_expected_ * map_density + domain_expected_ / domain_.measure());
+  // Paths a unit of the measure here: through the map, and over the domain.
+  const double through_map = map_expected_ / (static_cast<double>(map_.texels.size()) * density);
+  start.flux = intensity_(start.direction) * (1.0 / (through_map + domain_density_));
   return start;
 }
 
@@ -93,7 +94,7 @@ PathStart Emission::from_domain(uint64_t path) const {
   const double i = static_cast<double>(path);
   domain_.sample(fraction(rotation_ + i * kGolden), (i + domain_offset_) / domain_expected_, start.origin,
                  start.direction);
-  double density = domain_expected_ / domain_.measure();
+  double density = domain_density_;
   dvec2 image(0.0);
   if (find_texel(start, image))
     density += map_expected_ / (static_cast<double>(map_.texels.size()) *

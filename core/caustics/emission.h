@@ -51,6 +51,8 @@ class Emission {
   UniformDomain domain_;
   uint64_t seed_;
   double map_expected_ = 0.0, domain_expected_ = 0.0;
+  double domain_density_ = 0.0;  // paths over the domain a unit of its measure
+  double texels_a_path_ = 0.0;
   double map_offset_, domain_offset_, rotation_;  // uniform in [0, 1)
   uint64_t map_paths_ = 0, domain_paths_ = 0;
 };

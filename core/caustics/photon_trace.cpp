@@ -4,6 +4,7 @@
 #include "core/base/parallel.h"
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -17,8 +18,11 @@ namespace {
 SurfacePoint stored_surface(const Scene& scene, const MapFrame& frame, const PathStart& s) {
   const LightTexel& texel = frame.surface(s.x, s.y);
   const dvec3 centre = s.origin + static_cast<double>(texel.distance) * s.direction;
-  if (texel.primitive >= scene.triangles.size())
-    return surface_point(scene, texel.primitive, 0.0f, 0.0f, centre);
+  if (scene.is_analytic(texel.primitive)) {
+    const auto t = nearest_hit(scene.analytic_surface(texel.primitive), s.origin, s.direction, 0.0,
+                               std::numeric_limits<double>::infinity());
+    return surface_point(scene, texel.primitive, 0.0f, 0.0f, t ? s.origin + *t * s.direction : centre);
+  }
   const uvec3& tri = scene.triangles[texel.primitive];
   const dvec3 a(scene.positions[tri.x]), ab = dvec3(scene.positions[tri.y]) - a,
                                          ac = dvec3(scene.positions[tri.z]) - a;

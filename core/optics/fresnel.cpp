@@ -5,18 +5,6 @@
 
 namespace hybray::optics {
 
-double fresnel_dielectric(double cos_i, double eta) {
-  cos_i = std::min(1.0, std::max(0.0, cos_i));
-  // cos of the refracted angle times eta, squared. Rounding must not turn a grazing zero into NaN.
-  const double g2 = eta * eta - (1.0 - cos_i * cos_i);
-  if (g2 <= 0.0) return 1.0;
-  const double eta_cos_t = std::sqrt(g2);
-  const double rs = (cos_i - eta_cos_t) / (cos_i + eta_cos_t);
-  const double ee = eta * eta * cos_i;
-  const double rp = (ee - eta_cos_t) / (ee + eta_cos_t);
-  return 0.5 * (rs * rs + rp * rp);
-}
-
 double fresnel_conductor(double cos_i, double eta, double k) {
   cos_i = std::min(1.0, std::max(0.0, cos_i));
   const double cos2 = cos_i * cos_i, sin2 = 1.0 - cos2;
@@ -47,15 +35,6 @@ double hemispherical_reflectance(double eta) {
 double thin_sheet_reflectance(double cos_i, double eta) {
   const double r = fresnel_dielectric(cos_i, eta);
   return 2.0 * r / (1.0 + r);
-}
-
-bool refracted(const dvec3& direction, const dvec3& n, double eta, dvec3& out) {
-  const double cos_i = -glm::dot(direction, n);
-  const double g2 = eta * eta - (1.0 - cos_i * cos_i);
-  if (g2 <= 0.0) return false;
-  // Normalised again, so that rounding does not grow along a chain of refractions.
-  out = glm::normalize(direction + (cos_i - std::sqrt(g2)) * n);
-  return true;
 }
 
 }  // namespace hybray::optics

@@ -4,11 +4,24 @@
 
 #include "core/base/vec.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace hybray::optics {
 
 // Reflectance of an interface between dielectrics, in [0, 1]; 1 at total internal reflection. `cos_incident`
 // in [0, 1]; `eta` = index of the medium beyond / index of the medium that the light comes from.
-double fresnel_dielectric(double cos_incident, double eta);
+inline double fresnel_dielectric(double cos_incident, double eta) {
+  const double cos_i = std::min(1.0, std::max(0.0, cos_incident));
+  // cos of the refracted angle times eta, squared. Rounding must not turn a grazing zero into NaN.
+  const double g2 = eta * eta - (1.0 - cos_i * cos_i);
+  if (g2 <= 0.0) return 1.0;
+  const double eta_cos_t = std::sqrt(g2);
+  const double rs = (cos_i - eta_cos_t) / (cos_i + eta_cos_t);
+  const double ee = eta * eta * cos_i;
+  const double rp = (ee - eta_cos_t) / (ee + eta_cos_t);
+  return 0.5 * (rs * rs + rp * rp);
+}
 
 // Reflectance of a metal seen from a medium: `eta` and `k` are the real and imaginary part of the metal's
 // index divided by the medium's.
@@ -29,6 +42,13 @@ inline dvec3 reflected(const dvec3& direction, const dvec3& n) {
 
 // Direction of travel after refraction (Snell). `n` is unit and faces the incoming light: dot(direction, n)
 // <= 0. Returns false at total internal reflection and leaves `out` alone.
-bool refracted(const dvec3& direction, const dvec3& n, double eta, dvec3& out);
+inline bool refracted(const dvec3& direction, const dvec3& n, double eta, dvec3& out) {
+  const double cos_i = -glm::dot(direction, n);
+  const double g2 = eta * eta - (1.0 - cos_i * cos_i);
+  if (g2 <= 0.0) return false;
+  // Normalised again, so that rounding does not grow along a chain of refractions.
+  out = glm::normalize(direction + (cos_i - std::sqrt(g2)) * n);
+  return true;
+}
 
 }  // namespace hybray::optics

@@ -2,6 +2,7 @@
 // choice between reflection and refraction by importance, and where the path goes on.
 #pragma once
 
+#include "core/optics/fresnel.h"
 #include "core/optics/surface_optics.h"
 #include "core/scene/surface_point.h"
 
@@ -36,16 +37,51 @@ struct SpecularChoice {
   bool reflected = false;
 };
 
+inline double mean(const dvec3& v) {
+  return (v.x + v.y + v.z) * (1.0 / 3.0);
+}
+
+// Reflection by the shading normal, or by the geometric one where that would end below the surface.
+inline dvec3 reflection(const Facing& f, const dvec3& direction) {
+  const dvec3 out = reflected(direction, f.shading);
+  return glm::dot(out, f.geometric) > 0.0 ? out : reflected(direction, f.geometric);
+}
+
+// The same for refraction. Returns false where neither normal lets light through.
+inline bool refraction(const Facing& f, const dvec3& direction, double eta, dvec3& out) {
+  if (refracted(direction, f.shading, eta, out) && glm::dot(out, f.geometric) < 0.0) return true;
+  return refracted(direction, f.geometric, eta, out);
+}
+
 // Reflection with probability mean(weight * reflectance) / mean(weight * (reflectance + transmittance)), and
 // the weight divided by the probability of what was chosen; `u` is uniform in [0, 1). A direction that the
 // shading normal would send to the wrong side of the surface is taken from the geometric normal instead. The
 // weight of flux and of importance alike: radiance carries the squared ratio of indices in addition.
-SpecularChoice choose_specular(const SurfaceOptics& surface, const SurfacePoint& point, const Facing& facing,
-                               const SpecularSplit& split, const dvec3& direction, const dvec3& weight,
-                               uint16_t medium, double u);
-
-inline double mean(const dvec3& v) {
-  return (v.x + v.y + v.z) * (1.0 / 3.0);
+inline SpecularChoice choose_specular(const SurfaceOptics& s, const SurfacePoint& point, const Facing& f,
+                                      const SpecularSplit& shares, const dvec3& direction,
+                                      const dvec3& weight, uint16_t medium, double u) {
+  SpecularChoice c;
+  const dvec3 back = weight * shares.reflectance, through = weight * shares.transmittance;
+  const double b = mean(back), t = mean(through);
+  if (!(b + t > 0.0)) return c;
+  const double p_reflect = b / (b + t);
+  c.reflected = u < p_reflect;
+  c.medium = medium;
+  if (!c.reflected) {
+    if (s.thin) {
+      c.direction = direction;
+    } else if (refraction(f, direction, crossing_eta(s, f.from_inner), c.direction)) {
+      c.medium = f.from_inner ? s.outer_medium : s.inner_medium;
+    } else {
+      c.reflected = true;  // total reflection about both normals: rounding at the critical angle
+    }
+    c.weight = through / (1.0 - p_reflect);
+  } else {
+    c.weight = back / p_reflect;
+  }
+  if (c.reflected) c.direction = reflection(f, direction);
+  c.origin = point.position + f.geometric * (c.reflected ? point.offset : -point.offset);
+  return c;
 }
 
 }  // namespace hybray::optics

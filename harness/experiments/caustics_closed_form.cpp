@@ -37,8 +37,10 @@ void ClosedFormTally::report(Row& row) const {
     error += std::abs(mean - exact);
     whole += exact;
     if (n < 2.0 || !(exact > 0.0)) continue;
+    // Positions are floats: what is exact but for rounding has next to no spread of its own.
+    const double rounding = 1e-5 * exact;
     const double standard_error =
-        std::hypot(std::sqrt(square / (n * (n - 1.0))), region.area * region.quadrature_error);
+        std::hypot(std::sqrt(square / (n * (n - 1.0))), region.area * region.quadrature_error, rounding);
     worst_standard_error = std::max(worst_standard_error, standard_error / exact);
     if (standard_error > 0.0) worst_z = std::max(worst_z, std::abs(mean - exact) / standard_error);
   }

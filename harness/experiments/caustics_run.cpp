@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace hybray::caustics_parts {
 namespace {
@@ -92,7 +93,8 @@ void add_work(Row& row, const Frame& frame, const Setup& setup, const MapSet& ma
   row["texels_used_fraction"] = share(maps.texels_used, maps.texels_total);
   row["texels_traced_fraction"] = share(maps.texels_traced, maps.texels_total);
   row["lights_skipped"] = int64_t{maps.lights_skipped};
-  row["mixed_pixels_skipped"] = static_cast<int64_t>(setup.gbuffer.depth.size() - frame.mixed_pixels);
+  if (setup.pass.mixed)
+    row["mixed_pixels_skipped"] = static_cast<int64_t>(setup.gbuffer.depth.size() - frame.mixed_pixels);
 }
 
 void put_interval(Row& row, const std::string& name, const metrics::Interval& interval) {
@@ -121,6 +123,9 @@ Row run(const Point& point, Workspace& workspace) {
   }
 
   const MapSet maps = make_maps(setup.caustic_scene, setup.pass);
+  // The first frame comes before the reference, which takes long: what no frame can be made of shows at once.
+  std::optional<Frame> frame = make_frame(setup, maps, 0);
+  add_work(row, *frame, setup, maps);
   const Reference* truth = nullptr;
   if (point.number("reference_paths") > 0.0) {
     truth = &reference(point, workspace, setup);
@@ -137,18 +142,17 @@ Row run(const Point& point, Workspace& workspace) {
   const int64_t frames = point.integer("frames");
   double rmse = 0.0, median_error = 0.0;
   for (int64_t f = 0; f < frames; ++f) {
-    Frame frame = make_frame(setup, maps, static_cast<uint32_t>(f));
+    if (!frame) frame = make_frame(setup, maps, static_cast<uint32_t>(f));
     if (errors) {
-      errors->add(frame.image);
-      const metrics::ImageError error = metrics::image_error(frame.image, truth->image);
+      errors->add(frame->image);
+      const metrics::ImageError error = metrics::image_error(frame->image, truth->image);
       rmse += error.rmse / static_cast<double>(frames);
       median_error += error.median_relative_error / static_cast<double>(frames);
     }
-    closed_form.add(frame.paths.list.photons);
-    sums.add(frame);
-    if (f > 0) continue;
-    add_work(row, frame, setup, maps);
-    first = std::move(frame.image);
+    closed_form.add(frame->paths.list.photons);
+    sums.add(*frame);
+    if (f == 0) first = std::move(frame->image);
+    frame.reset();  // photons of two frames are never in memory at once
   }
   add_ledger(row, sums, maps, setup.pass.emission == EmissionKind::uniform);
   row["medium_mismatches"] = static_cast<int64_t>(sums.mismatches);

@@ -91,6 +91,19 @@ class CausticsFit(unittest.TestCase):
         self.assertEqual([line.split("|")[-2].strip() for line in lines], ["1", "2", "8"])
         self.assertEqual(["floor" in line for line in lines], [False, False, True])
 
+    def test_leaves_out_points_without_caustics_and_columns_without_numbers(self):
+        rows = [{"scene": "ring", "caustics": on, "mirror_depth": depth, "lights_visible": 1, "lights_invisible": 0,
+                 "total_ms": 2.0 if on == "true" else "", "total_spread_ms": 0.1, "repeats": 5, "relmse": "",
+                 "truncated_fraction": 0.5 / depth if on == "true" else ""} for depth in (1, 2) for on in ("true", "false")]
+        output = self.output(rows)
+        self.assertIn("2 points.", output)
+        self.assertEqual(output.count("Fig. 8"), 1)
+        self.assertIn("| mirror_depth | total_ms | truncated_fraction | time / first |", output)
+        self.assertIn("| 2 | 2 | 0.25 | 1 |", output)
+        for row in rows:  # without times
+            row["total_ms"] = ""
+        self.assertIn("| mirror_depth | truncated_fraction |\n", self.output(rows))
+
     def test_refuses_another_table(self):
         for content in ("", "scene,t_ss_ms\nsphere,1\n"):
             with tempfile.NamedTemporaryFile("w", suffix=".csv") as file:

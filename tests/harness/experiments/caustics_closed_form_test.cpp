@@ -1,8 +1,7 @@
 // The rows of `caustics` against closed forms.
-#include "tests/harness/experiments/caustics_fixture.h"
-
 #include "core/scene/procedural/closed_form_scenes.h"
 #include "core/truth/closed_forms.h"
+#include "tests/harness/experiments/caustics_fixture.h"
 
 namespace hybray {
 namespace {

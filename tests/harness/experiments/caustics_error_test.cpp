@@ -54,13 +54,14 @@ TEST_F(CausticsError, RelmseFallsWithTheNumberOfPathsAtTheRateOfTheory) {
 TEST_F(CausticsError, TheReferencesOwnErrorFallsWithItsPaths) {
   Workspace workspace(settings());
   const auto own = [&](double paths, int64_t batches) {
-    return number(run_in(workspace, unbiased("closed_flat_water", {{"reference_paths", paths},
-                                                                   {"reference_batches", batches}})),
+    return number(run_in(workspace, unbiased("closed_flat_water",
+                                             {{"reference_paths", paths}, {"reference_batches", batches}})),
                   "reference_relmse");
   };
   const double few = own(5e3, 8), many = own(8e4, 8), more_batches = own(5e3, 32);
   // At least as 1/N; an estimate over 32 x 18 pixels from 7 degrees of freedom each is good to
-  // sqrt(2 / (7 x 576)) = 2 %, but the dark pixels, where few paths arrive, make it twice that or three times.
+  // sqrt(2 / (7 x 576)) = 2 %, but the dark pixels, where few paths arrive, make it twice that or three
+  // times.
   EXPECT_LT(many, few / 16.0 * 1.2);
   EXPECT_NEAR(more_batches, few / 4.0, 0.2 * few / 4.0);
 }
@@ -69,7 +70,7 @@ TEST_F(CausticsError, EnergyIsRightWhereNothingIsLeftOut) {
   for (const char* scene : {"closed_flat_water", "closed_plane_mirror", "glass_ball", "metal_ring"}) {
     const Row row = run(unbiased(scene, {{"rays_per_texel", 8.0},
                                          {"frames", int64_t{16}},
-                                         {"reference_paths", 1e5},
+                                         {"reference_paths", 5e4},
                                          {"reference_batches", int64_t{16}}}));
     // 16 frames, 16 batches, 4 scenes: Student's t with 15 degrees of freedom exceeds 4.1 in one of 1000.
     EXPECT_LE(std::abs(z_of(row, "energy_ratio", 1.0)), 4.1) << scene;
@@ -106,10 +107,10 @@ TEST_F(CausticsError, UniformEmissionSaysWhatTheMapsMissAndFineMapsMissLess) {
   for (const char* scene : {"glass_ball", "metal_ring"}) {
     Workspace workspace(settings());
     const auto missed = [&](int64_t resolution, double paths) {
-      const Row row =
-          run_in(workspace,
-                 unbiased(scene, {{"map_resolution", resolution},
-                                  {"rays_per_texel", paths / (6.0 * static_cast<double>(resolution * resolution))}}));
+      const Row row = run_in(
+          workspace, unbiased(scene, {{"map_resolution", resolution},
+                                      {"rays_per_texel",
+                                       paths / (6.0 * static_cast<double>(resolution * resolution))}}));
       EXPECT_TRUE(is_empty(row, "covered_flux"));
       return number(row, "missed_by_map_fraction");
     };
@@ -122,8 +123,8 @@ TEST_F(CausticsError, UniformEmissionSaysWhatTheMapsMissAndFineMapsMissLess) {
   }
 }
 
-// Under still water, through glass and beside a mirror the caustic is smooth: half a ray for each texel leaves
-// more than half of the pixels dark, and the filter fills them in.
+// Under still water, through glass and beside a mirror the caustic is smooth: half a ray for each texel
+// leaves more than half of the pixels dark, and the filter fills them in.
 TEST_F(CausticsError, TheFilterSmoothsWhatHalfARayPerTexelLeavesAndKeepsTheEnergy) {
   for (const char* scene : {"closed_flat_water", "closed_glass_slab", "closed_plane_mirror"}) {
     Workspace workspace(settings());

@@ -41,6 +41,10 @@ TEST_F(CausticsLedger, ClosesForEveryWayOfTracing) {
           if (std::string(name) != "roulette_fraction") {
             EXPECT_GE(number(row, name), 0.0) << name;
           }
+        // The photons are those of the first frame.
+        if (number(row, "deposited_fraction") > 0.2) {
+          EXPECT_GT(integer(row, "photons"), 0);
+        }
         EXPECT_EQ(integer(row, "accumulator_overflows"), 0);
         EXPECT_LT(number(row, "accumulator_peak_fraction"), 1.0);
         EXPECT_LE(number(row, "offscreen_fraction") + number(row, "depth_rejected_fraction"), 1.0 + 1e-9);
@@ -49,15 +53,14 @@ TEST_F(CausticsLedger, ClosesForEveryWayOfTracing) {
         // in one of 130 such tests by chance; the seed is fixed.
         if (!is_empty(row, "emitted_flux_z")) {
           EXPECT_LE(std::abs(number(row, "emitted_flux_z")), 4.5);
-          EXPECT_NEAR(number(row, "direct_fraction"), 0.0, 0.2);
         }
       }
   }
 }
 
 TEST_F(CausticsLedger, AMirrorTakesItsShareAndTheRestArrives) {
-  // The paraboloid sends every ray of the lamp at its focus straight down to the floor after one reflection of
-  // 0.9, which no ray misses.
+  // The paraboloid sends every ray of the lamp at its focus straight down to the floor after one reflection
+  // of 0.9, which no ray misses.
   for (const char* first : {"stored", "traced"}) {
     const Row row = run({{"scene", text("closed_paraboloid")}, {"first_surface", text(first)}});
     EXPECT_NEAR(number(row, "absorbed_fraction"), 0.1, 1e-6);
@@ -99,14 +102,17 @@ TEST_F(CausticsLedger, AClosedRoomKeepsItsLightAndALimitOfOneCutsAllThatEntersTh
 
 TEST_F(CausticsLedger, WhatIsCutOffFallsWithDepth) {
   Workspace workspace(settings());
-  double before = 1.0;
-  for (const int64_t depth : {1, 2, 4, 8}) {
-    const double now =
-        number(run_in(workspace, {{"mirror_depth", depth}, {"rays_per_texel", 8.0}}), "truncated_fraction");
-    EXPECT_LT(now, 0.5 * before) << depth;
-    before = now;
-    if (depth == 1) before = 1.0;  // light that enters a ball always meets it again
-  }
+  const auto cut = [&](int64_t depth) {
+    return number(run_in(workspace, {{"mirror_depth", depth}, {"rays_per_texel", 8.0}}),
+                  "truncated_fraction");
+  };
+  // Light that has entered the ball meets it again; there at least 0.8 of it leaves, and the same again and
+  // again of what stays (only close to the rim does the glass reflect more).
+  const double one = cut(1), two = cut(2), four = cut(4), eight = cut(8);
+  EXPECT_GT(one, 0.7);
+  EXPECT_LT(two, 0.2 * one);
+  EXPECT_LT(four, 0.5 * two);
+  EXPECT_LT(eight, 0.5 * four);
 }
 
 }  // namespace

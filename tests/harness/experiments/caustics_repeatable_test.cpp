@@ -1,5 +1,6 @@
 // `caustics` gives the same numbers at any thread count, by either kind of photon map, and computes nothing
 // twice.
+#include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "tests/harness/experiments/caustics_fixture.h"
 
@@ -11,7 +12,6 @@ namespace {
 using CausticsRepeatable = test::CausticsFixture;
 
 TEST_F(CausticsRepeatable, MetricsAreTheSameToTheBitAtAnyThreadCountAndWithoutTiming) {
-  using Changes = std::map<std::string, Value>;
   const Changes points[] = {
       {{"scene", text("mirror_and_floor")}, {"camera", text("mirror")}, {"reference_paths", 3e4}},
       {{"scene", text("glass_ball")},
@@ -79,7 +79,7 @@ TEST_F(CausticsRepeatable, WithoutTimingNothingIsTimed) {
 // exactly where one of them had to make the reference.
 TEST_F(CausticsRepeatable, AReferenceIsMadeOnceForAllPointsThatItServes) {
   Workspace workspace(settings());
-  const Changes base{{"reference_paths", 2e4}};
+  const Changes base{{"camera", text("front")}, {"reference_paths", 2e4}};
   Row row;
   const auto reused_by = [&](const Changes& changes) {
     Changes point = base;
@@ -94,24 +94,36 @@ TEST_F(CausticsRepeatable, AReferenceIsMadeOnceForAllPointsThatItServes) {
   const double own = number(row, "reference_relmse");
   EXPECT_GT(rays, 4 * 20000);
 
-  const Changes served[] = {{{"rays_per_texel", 0.5}},
-                            {{"rays_per_texel", 2.0}},
-                            {{"mirror_depth", int64_t{8}}},
-                            {{"map_resolution", int64_t{32}}},
-                            {{"filter", text("wavelet")}},
-                            {{"emission", text("uniform")}},
+  const Changes served[] = {{{"rays_per_texel", 0.5}},      {{"rays_per_texel", 2.0}},
+                            {{"mirror_depth", int64_t{8}}}, {{"map_resolution", int64_t{32}}},
+                            {{"filter", text("wavelet")}},  {{"emission", text("uniform")}},
                             {{"mixed", text("forward")}}};
   for (const Changes& changes : served) {
     EXPECT_EQ(reused_by(changes), makes + 1) << changes.begin()->first;
     EXPECT_EQ(integer(row, "reference_rays"), rays) << changes.begin()->first;
     EXPECT_EQ(number(row, "reference_relmse"), own) << changes.begin()->first;
   }
-  const Changes apart[] = {{{"camera", text("caustic")}},   {{"resolution", text("32x18")}},
-                           {{"reference_paths", 1e4}},      {{"reference_batches", int64_t{3}}},
-                           {{"reference_radius", 3.0}},     {{"mixed", text("none")}},
+  const Changes apart[] = {{{"camera", text("caustic")}},     {{"resolution", text("32x18")}},
+                           {{"reference_paths", 1e4}},        {{"reference_batches", int64_t{3}}},
+                           {{"reference_radius", 3.0}},       {{"mixed", text("none")}},
                            {{"lights_invisible", int64_t{0}}}};
   for (const Changes& changes : apart)
     EXPECT_EQ(reused_by(changes), makes) << changes.begin()->first << " needs a reference of its own";
+}
+
+TEST_F(CausticsRepeatable, WhatNoFrameCanBeMadeOfFailsBeforeTheReferenceIsMade) {
+  Workspace workspace(settings());
+  const Changes good{{"camera", text("front")}, {"reference_paths", 2e4}};
+  Changes bad = good;
+  bad["rays_per_texel"] = 1e6;
+  run_in(workspace, {{"camera", text("front")}});
+  EXPECT_THROW(run_in(workspace, bad), InputError);
+  uint64_t before = workspace.reused();
+  run_in(workspace, good);
+  const uint64_t first = workspace.reused() - before;
+  before = workspace.reused();
+  run_in(workspace, good);
+  EXPECT_EQ(workspace.reused() - before, first + 1) << "the first had to make the reference";
 }
 
 }  // namespace
