@@ -90,7 +90,7 @@ class PathWalk {
       }
       dvec3 origin(front.origins[i]), direction(front.directions[i]);
       const dvec3 place = origin + static_cast<double>(hit.t) * direction;
-      const SurfacePoint point = surface_point(tracer_.scene(), hit.primitive, hit.u, hit.v, place);
+      const SurfacePoint point = optics_.surfaces.point(hit.primitive, hit.u, hit.v, place);
       if (meet(point, static_cast<double>(hit.t), origin, direction, path, on_diffuse))
         front.push(origin, direction, path);
     }
@@ -141,21 +141,9 @@ class PathWalk {
  private:
   // Hits are scattered over memory: what the next ones need is on its way while one is worked on.
   void prefetch(const PathFront& front, size_t i, size_t count) const {
-    constexpr size_t kTriangleAhead = 8, kVertexAhead = 4;
-    const Scene& scene = tracer_.scene();
-    const auto triangle = [&](size_t k) -> const uvec3* {
-      const uint32_t primitive = k < count ? front.hits[k].primitive : kNoPrimitive;
-      return primitive < scene.triangles.size() ? &scene.triangles[primitive] : nullptr;
-    };
-    if (const uvec3* t = triangle(i + kTriangleAhead)) {
-      __builtin_prefetch(t);
-      __builtin_prefetch(&scene.triangle_material[front.hits[i + kTriangleAhead].primitive]);
-    }
-    if (const uvec3* t = triangle(i + kVertexAhead))
-      for (const uint32_t v : {t->x, t->y, t->z}) {
-        __builtin_prefetch(&scene.positions[v]);
-        __builtin_prefetch(&scene.normals[v]);
-      }
+    constexpr size_t kEntryAhead = 8, kNormalsAhead = 4;
+    if (i + kEntryAhead < count) optics_.surfaces.prefetch_entry(front.hits[i + kEntryAhead].primitive);
+    if (i + kNormalsAhead < count) optics_.surfaces.prefetch_normals(front.hits[i + kNormalsAhead].primitive);
   }
 
   void absorb(double length, Path& path) {

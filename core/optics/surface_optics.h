@@ -13,7 +13,7 @@
 #pragma once
 
 #include "core/base/vec.h"
-#include "core/scene/scene.h"
+#include "core/scene/surface_table.h"
 
 #include <cstdint>
 #include <vector>
@@ -53,6 +53,7 @@ struct OpticsTable {
   std::vector<Medium> media;             // [0] is vacuum
   bool any_specular = false;             // on a surface that the scene really has
   bool any_interface = false;
+  SurfaceTable surfaces;  // without entries where nothing is specular
 };
 
 // Throws InputError, naming the material, for an index of refraction below 1 or not finite, negative

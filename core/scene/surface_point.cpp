@@ -6,9 +6,6 @@
 namespace hybray {
 namespace {
 
-// A few times the rounding of a float intersection, relative to the largest coordinate involved.
-constexpr double kOffset = 0x1p-19;
-
 double largest(const dvec3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
@@ -20,7 +17,7 @@ SurfacePoint analytic_point(const AnalyticSurface& surface, uint32_t primitive, 
   p.geometric_normal = outward_normal(surface, p.position);
   p.shading_normal = p.geometric_normal;
   p.material = surface.material;
-  p.offset = kOffset * std::max(largest(p.position), extent(surface));
+  p.offset = kSurfaceOffset * std::max(largest(p.position), extent(surface));
   return p;
 }
 
@@ -40,7 +37,7 @@ SurfacePoint surface_point(const Scene& scene, uint32_t primitive, float u, floa
   // Opposite vertex normals can cancel: the triangle's own normal is then the only one there is.
   p.shading_normal = length > 1e-6f ? dvec3(n * (1.0f / length)) : p.geometric_normal;
   p.material = scene.triangle_material[primitive];
-  p.offset = kOffset * std::max({largest(p.position), largest(ab), largest(ac)});
+  p.offset = kSurfaceOffset * std::max({largest(p.position), largest(ab), largest(ac)});
   return p;
 }
 

@@ -6,6 +6,10 @@
 
 namespace hybray {
 
+// Offset off a surface relative to the largest coordinate involved: a few times the rounding of a float
+// intersection.
+constexpr double kSurfaceOffset = 0x1p-19;
+
 struct SurfacePoint {
   dvec3 position{0.0};          // world space, metres
   dvec3 geometric_normal{0.0};  // unit, on the front side

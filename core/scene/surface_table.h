@@ -1,0 +1,68 @@
+// What shading needs of each triangle, computed once and packed together: a path that lands on a flat
+// triangle reads half a cache line instead of eight.
+#pragma once
+
+#include "core/scene/surface_point.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace hybray {
+
+class SurfaceTable {
+ public:
+  SurfaceTable() = default;
+  // `scene` must outlive the table and not change. Without entries every point is worked out anew.
+  SurfaceTable(const Scene& scene, bool with_entries);
+
+  // As surface_point() does, with the point taken from `hit`, moved onto the triangle's plane, and normals of
+  // float precision.
+  SurfacePoint point(uint32_t primitive, float u, float v, const dvec3& hit) const {
+    if (primitive >= entries_.size()) return surface_point(*scene_, primitive, u, v, hit);
+    const Entry& e = entries_[primitive];
+    SurfacePoint p;
+    p.primitive = primitive;
+    p.material = e.material;
+    p.geometric_normal = dvec3(e.normal);
+    p.position = hit - (glm::dot(p.geometric_normal, hit) - e.plane) * p.geometric_normal;
+    p.shading_normal = e.flat ? p.geometric_normal : interpolated(primitive, u, v, e.normal);
+    const double largest = std::max({std::abs(p.position.x), std::abs(p.position.y), std::abs(p.position.z)});
+    p.offset = kSurfaceOffset * std::max(largest, static_cast<double>(e.reach));
+    return p;
+  }
+
+  // Fetches what point() will read of a triangle: its entry, or what the entry points to.
+  void prefetch_entry(uint32_t primitive) const {
+    if (primitive >= entries_.size()) return;
+    __builtin_prefetch(&entries_[primitive]);
+    __builtin_prefetch(&scene_->triangles[primitive]);
+  }
+  void prefetch_normals(uint32_t primitive) const {
+    if (primitive >= entries_.size() || entries_[primitive].flat) return;
+    const uvec3& t = scene_->triangles[primitive];
+    for (const uint32_t vertex : {t.x, t.y, t.z}) __builtin_prefetch(&scene_->normals[vertex]);
+  }
+
+ private:
+  struct alignas(32) Entry {
+    double plane = 0.0;  // dot(normal, x) of the points x of the triangle
+    vec3 normal{0.0f};   // geometric
+    float reach = 0.0f;  // largest coordinate of the two edges from the first vertex
+    uint32_t material = 0;
+    bool flat = false;  // the vertices' normals are the triangle's own
+  };
+
+  dvec3 interpolated(uint32_t primitive, float u, float v, const vec3& geometric) const {
+    const uvec3& t = scene_->triangles[primitive];
+    const std::vector<vec3>& normals = scene_->normals;
+    const vec3 n = (1.0f - u - v) * normals[t.x] + u * normals[t.y] + v * normals[t.z];
+    const float length = glm::length(n);
+    return dvec3(length > 1e-6f ? n * (1.0f / length) : geometric);
+  }
+
+  const Scene* scene_ = nullptr;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace hybray
