@@ -14,8 +14,8 @@ struct Photon {
   vec3 direction{0.0f};  // of travel, unit
   vec3 flux{0.0f};       // W by channel, before the surface's BRDF
   // |cos| of arrival with the shading normal / with the geometric normal: what turns flux per area of the
-  // triangle into irradiance on the smooth surface that it stands for (Veach 1997, 5.3). 0 where the shading
-  // normal turns away.
+  // triangle into irradiance on the smooth surface that it stands for (Veach 1997, 5.3). 1 where the shading
+  // normal turns away and the geometric one stands in.
   float shading_ratio = 1.0f;
   float cos_in = 1.0f;  // of arrival, with the shading normal
   uint32_t material = 0;

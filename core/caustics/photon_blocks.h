@@ -1,5 +1,5 @@
-// The photons of many paths, block by block as they were traced. The order, of blocks and within them, is
-// that of the paths, so that it does not depend on threads; nothing is copied into one list.
+// The photons of many paths, block by block as they were traced, in an order that does not depend on threads;
+// nothing is copied into one list.
 #pragma once
 
 #include "core/caustics/photon.h"

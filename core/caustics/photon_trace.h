@@ -14,15 +14,15 @@ enum class FirstSurface : uint8_t {
   traced,  // one ray more
 };
 
-// Photons in the order of their paths, with the account.
+// Photons with their account: block by block of paths, within a block by the segment that left them.
 struct PhotonList {
   PhotonBlocks photons;
   WalkCounts counts;
   uint64_t paths = 0;
 };
 
-// Traces paths [first, first + count) of `emission` and appends what they leave behind to `out`, in order of
-// the paths: the same at any number of threads. `start_medium` is the medium that the light lies in
+// Traces paths [first, first + count) of `emission` and appends what they leave behind to `out`, the same
+// at any number of threads. `start_medium` is the medium that the light lies in
 // (medium_at). `map` is the one that the emission was made with.
 void trace_photons(const Tracer& tracer, const optics::OpticsTable& optics, const Emission& emission,
                    const VisibilityMap& map, FirstSurface first_surface, uint16_t start_medium,

@@ -32,7 +32,7 @@ struct CameraPathOptions {
 };
 
 struct VisibilityPoints {
-  std::vector<VisibilityPoint> points;  // in order of pixels
+  std::vector<VisibilityPoint> points;  // in an order that does not depend on threads
   WalkCounts counts;
   uint64_t pixels = 0;  // that start paths
   uint64_t paths = 0;
