@@ -45,6 +45,13 @@ MapSet make_maps(const CausticScene& scene, const PassSettings& settings) {
 LightPaths trace_light_paths(const CausticScene& scene, const PassSettings& settings, const MapSet& maps,
                              uint32_t sample) {
   LightPaths result;
+  trace_light_paths(scene, settings, maps, sample, result);
+  return result;
+}
+
+void trace_light_paths(const CausticScene& scene, const PassSettings& settings, const MapSet& maps,
+                       uint32_t sample, LightPaths& result) {
+  result.clear();
   double expected = 0.0;
   for (const VisibilityMap& map : maps.maps)
     expected += expected_paths(map, settings.emission, settings.rays_per_texel);
@@ -59,19 +66,15 @@ LightPaths trace_light_paths(const CausticScene& scene, const PassSettings& sett
                             expected_paths(map, settings.emission, settings.rays_per_texel), seed);
     WalkOptions walk = settings.walk;
     walk.seed = seed;
-    PhotonList own;
+    // The list gathers all lights; what this one adds to its account is its own.
+    WalkCounts before;
+    std::swap(before, result.list.counts);
     trace_photons(scene.tracer, scene.optics, emission, map, settings.first_surface,
-                  scene.light_media[map.light], walk, 0, emission.paths(), own);
-    result.ledgers.push_back(own.counts.ledger);
-    if (result.list.paths == 0) {
-      result.list = std::move(own);
-    } else {
-      result.list.photons.append(std::move(own.photons));
-      result.list.counts.add(own.counts);
-      result.list.paths += own.paths;
-    }
+                  scene.light_media[map.light], walk, 0, emission.paths(), result.list);
+    result.ledgers.push_back(result.list.counts.ledger);
+    before.add(result.list.counts);
+    result.list.counts = before;
   }
-  return result;
 }
 
 DirectResult deposit(const CausticScene& scene, const PassSettings& settings, const GBuffer& camera,

@@ -42,6 +42,14 @@ constexpr double kMostPathsOfPass = 0x1p24;
 struct LightPaths {
   PhotonList list;
   std::vector<FluxLedger> ledgers;  // one a map
+
+  // Empties it but keeps the memory for the next frame.
+  void clear() {
+    list.photons.clear();
+    list.counts = {};
+    list.paths = 0;
+    ledgers.clear();
+  }
 };
 
 struct DirectResult {
@@ -61,6 +69,9 @@ struct MixedResult {
 MapSet make_maps(const CausticScene& scene, const PassSettings& settings);
 LightPaths trace_light_paths(const CausticScene& scene, const PassSettings& settings, const MapSet& maps,
                              uint32_t sample);
+// The same into `result`, whose memory is used again.
+void trace_light_paths(const CausticScene& scene, const PassSettings& settings, const MapSet& maps,
+                       uint32_t sample, LightPaths& result);
 DirectResult deposit(const CausticScene& scene, const PassSettings& settings, const GBuffer& camera,
                      const LightPaths& paths);
 MixedResult add_mixed(const CausticScene& scene, const PassSettings& settings, const GBuffer& camera,

@@ -24,6 +24,23 @@ class PhotonBlocks {
     later = {};
   }
 
+  // Empties the list but keeps its memory, which take_spare() hands out again: fresh pages cost more than
+  // what is written to them.
+  void clear() {
+    for (std::vector<Photon>& block : blocks_) {
+      block.clear();
+      spare_.push_back(std::move(block));
+    }
+    blocks_.clear();
+    size_ = 0;
+  }
+  std::vector<Photon> take_spare() {
+    if (spare_.empty()) return {};
+    std::vector<Photon> block = std::move(spare_.back());
+    spare_.pop_back();
+    return block;
+  }
+
   size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
   const std::vector<std::vector<Photon>>& blocks() const { return blocks_; }
@@ -37,6 +54,7 @@ class PhotonBlocks {
 
  private:
   std::vector<std::vector<Photon>> blocks_;  // none of them empty
+  std::vector<std::vector<Photon>> spare_;   // empty, with memory
   size_t size_ = 0;
 };
 

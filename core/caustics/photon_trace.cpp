@@ -5,9 +5,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <memory>
 #include <utility>
 #include <vector>
+
+#include <tbb/enumerable_thread_specific.h>
 
 namespace hybray::caustics {
 namespace {
@@ -68,10 +69,12 @@ void trace_photons(const Tracer& tracer, const optics::OpticsTable& optics, cons
     WalkCounts counts;
   };
   std::vector<Block> blocks((count + kBlock - 1) / kBlock);
+  for (Block& block : blocks) block.photons = out.photons.take_spare();
+  tbb::enumerable_thread_specific<PathFront> fronts;
   parallel_blocks(count, kBlock, [&](size_t begin, size_t end) {
     Block& mine = blocks[begin / kBlock];
     mine.photons.reserve(end - begin);
-    const auto front = std::make_unique<PathFront>();
+    PathFront& front = fronts.local();
     PathWalk walk(tracer, optics, options, mine.counts);
     const auto deposit = [&](const SurfacePoint& point, const optics::Facing& facing, const dvec3& direction,
                              const Path& path, const optics::SurfaceOptics&) {
@@ -92,9 +95,9 @@ void trace_photons(const Tracer& tracer, const optics::OpticsTable& optics, cons
         const SurfacePoint point = stored_surface(tracer.scene(), map.frames[start.frame], start);
         goes_on = walk.meet(point, glm::length(point.position - origin), origin, direction, path, deposit);
       }
-      if (goes_on) front->push(origin, direction, path);
+      if (goes_on) front.push(origin, direction, path);
     }
-    while (front->count > 0) walk.advance(*front, deposit);
+    while (front.count > 0) walk.advance(front, deposit);
   });
 
   for (Block& block : blocks) {

@@ -4,7 +4,7 @@
 #include "core/base/morton.h"
 #include "core/base/parallel.h"
 
-#include <memory>
+#include <tbb/enumerable_thread_specific.h>
 
 namespace hybray::caustics {
 namespace {
@@ -60,9 +60,10 @@ VisibilityPoints trace_visibility_points(const Tracer& tracer, const optics::Opt
 
   constexpr size_t kBlock = PathFront::kSize;
   std::vector<VisibilityPoints> blocks((count + kBlock - 1) / kBlock);
+  tbb::enumerable_thread_specific<PathFront> fronts;
   parallel_blocks(count, kBlock, [&](size_t begin, size_t end) {
     VisibilityPoints& mine = blocks[begin / kBlock];
-    const auto front = std::make_unique<PathFront>();
+    PathFront& front = fronts.local();
     PathWalk walk(tracer, optics, options.walk, mine.counts);
     const auto leave_point = [&](const SurfacePoint& point, const optics::Facing& facing, const dvec3&,
                                  const Path& path, const optics::SurfaceOptics&) {
@@ -95,15 +96,15 @@ VisibilityPoints trace_visibility_points(const Tracer& tracer, const optics::Opt
         const double jy = random_unit(path.number, 1, 1, options.walk.seed);
         direction = glm::normalize(g.view.ray_direction(x + jx, y + jy));
         // The near plane does not cut: what is nearer is seen by a pinhole, and by the tracer.
-        front->push(origin, direction, path);
+        front.push(origin, direction, path);
         continue;
       }
       direction = glm::normalize(g.view.ray_direction(x + 0.5, y + 0.5));
       const SurfacePoint point = stored_point(g, scene, x, y);
       if (walk.meet(point, glm::length(point.position - origin), origin, direction, path, leave_point))
-        front->push(origin, direction, path);
+        front.push(origin, direction, path);
     }
-    while (front->count > 0) walk.advance(*front, leave_point);
+    while (front.count > 0) walk.advance(front, leave_point);
   });
 
   VisibilityPoints all;

@@ -56,6 +56,7 @@ void add_times(Row& row, const Setup& setup, const MapSet& maps, int repeats, ui
   const CausticScene& scene = setup.caustic_scene;
   const PassSettings& pass = setup.pass;
   const LightPaths paths = trace_light_paths(scene, pass, maps, 0);
+  LightPaths again;  // as from frame to frame, photons keep their memory
   const DirectResult direct = deposit(scene, pass, setup.gbuffer, paths);
   const MixedResult mixed = add_mixed(scene, pass, setup.gbuffer, setup.camera_medium, paths, 0);
   const Image2D<vec3> image = combined(setup, direct, mixed);
@@ -65,9 +66,9 @@ void add_times(Row& row, const Setup& setup, const MapSet& maps, int repeats, ui
     if (!scene.optics.any_specular) return;
     const MapSet own = make_maps(scene, pass);
     if (own.maps.empty()) return;
-    const LightPaths own_paths = trace_light_paths(scene, pass, own, 0);
-    const DirectResult own_direct = deposit(scene, pass, gbuffer, own_paths);
-    const MixedResult own_mixed = add_mixed(scene, pass, gbuffer, setup.camera_medium, own_paths, 0);
+    trace_light_paths(scene, pass, own, 0, again);
+    const DirectResult own_direct = deposit(scene, pass, gbuffer, again);
+    const MixedResult own_mixed = add_mixed(scene, pass, gbuffer, setup.camera_medium, again, 0);
     Image2D<vec3> result = combined(setup, own_direct, own_mixed);
     if (setup.filter) result = filtered(setup, result);
   };
@@ -75,7 +76,7 @@ void add_times(Row& row, const Setup& setup, const MapSet& maps, int repeats, ui
   const Variant variants[] = {
       {"gbuffer", [&] { main_view(); }},
       {"map", [&] { make_maps(scene, pass); }},
-      {"emit_trace", [&] { trace_light_paths(scene, pass, maps, 0); }},
+      {"emit_trace", [&] { trace_light_paths(scene, pass, maps, 0, again); }},
       {"splat", [&] { deposit(scene, pass, setup.gbuffer, paths); }},
       {"photonmap", [&] { add_mixed(scene, pass, setup.gbuffer, setup.camera_medium, paths, 0); }},
       {"filter",
