@@ -52,6 +52,7 @@ Emission::Emission(const Light& light, const VisibilityMap& map, const Bounds3& 
       map_offset_(random_unit(0, kOffset, 0, seed)),
       domain_offset_(random_unit(1, kOffset, 0, seed)),
       rotation_(random_unit(0, kRotation, 0, seed)) {
+  for (const MapFrame& frame : map.frames) frame_rays_.emplace_back(frame.frame);
   if (kind == EmissionKind::mixture && map.texels.empty()) kind = EmissionKind::uniform;
   if (kind == EmissionKind::map) HYBRAY_CHECK(!map.texels.empty());
   map_expected_ = kind == EmissionKind::map ? expected : kind == EmissionKind::mixture ? 0.5 * expected : 0.0;
@@ -71,7 +72,6 @@ PathStart Emission::from_map(uint64_t path) const {
   const size_t index =
       std::min(last, static_cast<size_t>((static_cast<double>(path) + map_offset_) * texels_a_path_));
   const MapTexel& texel = map_.texels[index];
-  const LightFrame& frame = map_.frames[texel.frame].frame;
   const double i = static_cast<double>(path);
   const uint64_t jitter = random_bits(index, kJitter, 0, seed_);
   const double x = texel.x + fraction(static_cast<double>(jitter >> 32) * 0x1p-32 + i * kPlasticX);
@@ -79,13 +79,14 @@ PathStart Emission::from_map(uint64_t path) const {
 
   PathStart start;
   double density = 0.0;
-  frame.ray(x, y, start.origin, start.direction, density);
+  frame_rays_[texel.frame].ray(x, y, start.origin, start.direction, density);
   start.in_map = true;
   start.frame = texel.frame;
   start.x = texel.x, start.y = texel.y;
-  // Paths a unit of the measure here: through the map, and over the domain.
-  const double through_map = map_expected_ / (static_cast<double>(map_.texels.size()) * density);
-  start.flux = intensity_(start.direction) * (1.0 / (through_map + domain_density_));
+  // Paths a unit of the measure here: through the map 1 / (texels_a_path density), and over the domain.
+  const double per_path = texels_a_path_ * density;
+  start.flux = intensity_(start.direction) *
+               (domain_density_ > 0.0 ? per_path / (1.0 + per_path * domain_density_) : per_path);
   return start;
 }
 

@@ -48,6 +48,7 @@ class Emission {
 
   Intensity intensity_;
   const VisibilityMap& map_;
+  std::vector<FrameRays> frame_rays_;  // of the map's frames
   UniformDomain domain_;
   uint64_t seed_;
   double map_expected_ = 0.0, domain_expected_ = 0.0;

@@ -82,25 +82,24 @@ class PathWalk {
     front.count = 0;
     for (size_t i = 0; i < before; ++i) {
       prefetch(front, i, before);
-      Path path = front.paths[i];
+      Path& path = front.paths[i];
       const Hit& hit = front.hits[i];
       if (!hit.valid()) {
         counts_.ledger.escaped += optics::mean(path.weight);
         continue;
       }
-      dvec3 origin(front.origins[i]), direction(front.directions[i]);
-      const dvec3 place = origin + static_cast<double>(hit.t) * direction;
-      const SurfacePoint point = optics_.surfaces.point(hit.primitive, hit.u, hit.v, place);
-      if (meet(point, static_cast<double>(hit.t), origin, direction, path, on_diffuse))
-        front.push(origin, direction, path);
+      const double t = static_cast<double>(hit.t);
+      dvec3 direction(front.directions[i]), origin = dvec3(front.origins[i]) + t * direction;
+      const SurfacePoint point = optics_.surfaces.point(hit.primitive, hit.u, hit.v, origin);
+      if (meet(point, t, origin, direction, path, on_diffuse)) front.push(origin, direction, path);
     }
   }
 
   // The path meets a surface after `length` metres. Returns whether it goes on, from `origin` along
   // `direction`.
   template <class OnDiffuse>
-  bool meet(const SurfacePoint& point, double length, dvec3& origin, dvec3& direction, Path& path,
-            const OnDiffuse& on_diffuse) {
+  [[gnu::always_inline]] bool meet(const SurfacePoint& point, double length, dvec3& origin, dvec3& direction,
+                                   Path& path, const OnDiffuse& on_diffuse) {
     FluxLedger& ledger = counts_.ledger;
     const optics::SurfaceOptics& surface = optics_.materials[point.material];
     const optics::Facing facing = optics::facing(point, direction);
@@ -126,14 +125,15 @@ class PathWalk {
       (path.events == 0 ? ledger.direct : ledger.deposited) += entry;
       on_diffuse(point, facing, direction, path, surface);
     }
-    const double specular = optics::mean(path.weight * (split.reflectance + split.transmittance));
+    const optics::SpecularShares shares(split, path.weight);
+    const double specular = shares.mean_back + shares.mean_through;
     ledger.absorbed += arriving - entry - specular;
     if (!(specular > 0.0)) return false;
     if (path.events >= options_.max_events) {
       ledger.truncated += specular;
       return false;
     }
-    const double after = go_on(point, surface, facing, split, origin, direction, path);
+    const double after = go_on(point, surface, facing, shares, origin, direction, path);
     ledger.balance += specular - after;
     return after > 0.0;
   }
@@ -156,18 +156,19 @@ class PathWalk {
   }
 
   // Chooses the event, then whether the path survives it. Returns its mean weight afterwards.
-  double go_on(const SurfacePoint& point, const optics::SurfaceOptics& surface, const optics::Facing& facing,
-               const optics::SpecularSplit& split, dvec3& origin, dvec3& direction, Path& path) const {
+  [[gnu::always_inline]] double go_on(const SurfacePoint& point, const optics::SurfaceOptics& surface,
+                                      const optics::Facing& facing, const optics::SpecularShares& shares,
+                                      dvec3& origin, dvec3& direction, Path& path) const {
     const uint32_t dimension = kFirstDimension + 2u * path.events;
     const optics::SpecularChoice next =
-        optics::choose_specular(surface, point, facing, split, direction, path.weight, path.medium,
+        optics::choose_specular(surface, point, facing, shares, direction, path.medium,
                                 random_unit(path.number, dimension, 0, options_.seed));
-    double after = optics::mean(next.weight);
+    double after = shares.mean_back + shares.mean_through;
     path.weight = next.weight;
-    const double survival = after / (options_.roulette_threshold * path.initial);
-    if (survival < 1.0) {
-      if (!(random_unit(path.number, dimension + 1, 0, options_.seed) < survival)) return 0.0;
-      path.weight /= survival;
+    const double wanted = options_.roulette_threshold * path.initial;
+    if (after < wanted) {
+      if (!(random_unit(path.number, dimension + 1, 0, options_.seed) * wanted < after)) return 0.0;
+      path.weight *= wanted / after;
       after = optics::mean(path.weight);
     }
     path.medium = next.medium;

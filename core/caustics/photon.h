@@ -20,8 +20,8 @@ struct Photon {
   float cos_in = 1.0f;  // of arrival, with the shading normal
   uint32_t material = 0;
   uint32_t primitive = 0;
-  uint32_t missed_by_map : 1 = 0;  // the path left the light where its visibility map has probability zero
-  uint32_t events : 31 = 0;        // specular events before this surface
+  uint16_t events = 0;         // specular events before this surface
+  uint16_t missed_by_map = 0;  // 1: the path left the light where its visibility map has probability zero
 };
 
 // Where the flux of the paths went, W, mean of the channels, in double. By construction

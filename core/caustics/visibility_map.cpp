@@ -30,42 +30,43 @@ float reflect_share(const Scene& scene, const optics::OpticsTable& optics, const
 // Finds the active texels of one frame and appends them to the map; a frame without any is dropped.
 void add_frame(VisibilityMap& map, const Scene& scene, const optics::OpticsTable& optics, LightBuffer buffer,
                std::span<const uint8_t> tiles) {
-  const LightFrame& frame = buffer.frame;
-  const Light& light = scene.lights[map.light];
-  const int tiles_x = (frame.width + kMortonTile - 1) / kMortonTile;
-  const auto for_texels = [&](size_t tile, const auto& visit) {
-    const int tx = static_cast<int>(tile) % tiles_x * kMortonTile,
-              ty = static_cast<int>(tile) / tiles_x * kMortonTile;
-    for (uint32_t i = 0; i < kMortonTile * kMortonTile; ++i) {
-      const int x = tx + morton_x(i), y = ty + morton_y(i);
-      if (x < frame.width && y < frame.height) visit(x, y);
-    }
+  constexpr size_t kBlock = 16;  // tiles
+  struct Block {
+    std::vector<MapTexel> texels;
+    double flux = 0.0;
   };
-  Image2D<float> share(frame.width, frame.height, -1.0f);
-  parallel_blocks(tiles.size(), 16, [&](size_t begin, size_t end) {
+  const LightFrame& frame = buffer.frame;
+  const Intensity intensity(scene.lights[map.light]);
+  const auto number = static_cast<uint16_t>(map.frames.size());
+  MapFrame result{frame, std::move(buffer.texels), Image2D<uint8_t>(frame.width, frame.height)};
+  const auto visit = [&](int x, int y, Block& block) {
+    const dvec3 direction = frame.ray_direction(x + 0.5, y + 0.5);
+    const double shines = optics::mean(intensity(direction));
+    if (!(shines > 0.0)) return;
+    const float share =
+        reflect_share(scene, optics, result.surface(x, y), frame.ray_origin(x + 0.5, y + 0.5), direction);
+    if (share < 0.0f) return;
+    result.active(x, y) = 1;
+    block.texels.push_back({static_cast<uint16_t>(x), static_cast<uint16_t>(y), number, share});
+    block.flux += shines * frame.texel_measure(x, y);
+  };
+  const int tiles_x = (frame.width + kMortonTile - 1) / kMortonTile;
+  std::vector<Block> blocks((tiles.size() + kBlock - 1) / kBlock);
+  parallel_blocks(tiles.size(), kBlock, [&](size_t begin, size_t end) {
     for (size_t tile = begin; tile < end; ++tile) {
       if (!tiles[tile]) continue;
-      for_texels(tile, [&](int x, int y) {
-        const dvec3 direction = frame.ray_direction(x + 0.5, y + 0.5);
-        if (optics::mean(intensity(light, direction)) > 0.0)
-          share(x, y) = reflect_share(scene, optics, buffer.texels(x, y), frame.ray_origin(x + 0.5, y + 0.5),
-                                      direction);
-      });
+      const int tx = static_cast<int>(tile) % tiles_x * kMortonTile,
+                ty = static_cast<int>(tile) / tiles_x * kMortonTile;
+      for (uint32_t i = 0; i < kMortonTile * kMortonTile; ++i) {
+        const int x = tx + morton_x(i), y = ty + morton_y(i);
+        if (x < frame.width && y < frame.height) visit(x, y, blocks[begin / kBlock]);
+      }
     }
   });
-
-  MapFrame result{frame, std::move(buffer.texels), Image2D<uint8_t>(frame.width, frame.height)};
   const size_t before = map.texels.size();
-  const auto number = static_cast<uint16_t>(map.frames.size());
-  for (size_t tile = 0; tile < tiles.size(); ++tile) {
-    if (!tiles[tile]) continue;
-    for_texels(tile, [&](int x, int y) {
-      if (share(x, y) < 0.0f) return;
-      result.active(x, y) = 1;
-      map.texels.push_back({static_cast<uint16_t>(x), static_cast<uint16_t>(y), number, share(x, y)});
-      map.covered_flux +=
-          optics::mean(intensity(light, frame.ray_direction(x + 0.5, y + 0.5))) * frame.texel_measure(x, y);
-    });
+  for (const Block& block : blocks) {
+    map.texels.insert(map.texels.end(), block.texels.begin(), block.texels.end());
+    map.covered_flux += block.flux;
   }
   if (map.texels.size() > before) map.frames.push_back(std::move(result));
 }
@@ -105,7 +106,9 @@ VisibilityMap make_visibility_map(const Tracer& tracer, const optics::OpticsTabl
   map.texels_total = static_cast<uint64_t>(full_frames(light)) * static_cast<uint64_t>(resolution) *
                      static_cast<uint64_t>(resolution);
   if (!emits(light)) return map;
-  for (const LightFrame& frame : light_frames(light, targets.boxes, scene.bounds, resolution)) {
+  const std::vector<LightFrame> frames = light_frames(light, targets.boxes, scene.bounds, resolution);
+  map.frames.reserve(frames.size());
+  for (const LightFrame& frame : frames) {
     const std::vector<uint8_t> tiles = tiles_that_may_see(frame, targets.boxes);
     LightBuffer buffer = make_light_buffer(tracer, frame, tiles);
     map.texels_traced += buffer.traced;

@@ -131,19 +131,14 @@ dvec3 LightFrame::ray_direction(double x, double y) const {
                         (2.0 * y / height - 1.0) * half_height * down);
 }
 
-void LightFrame::ray(double x, double y, dvec3& o, dvec3& d, double& density) const {
-  const double a = (2.0 * x / width - 1.0) * half_width, b = (2.0 * y / height - 1.0) * half_height;
-  density = 4.0 * half_width * half_height / (static_cast<double>(width) * height);
-  if (orthographic) {
-    o = origin + a * right + b * down;
-    d = forward;
-    return;
-  }
-  const double scale = 1.0 / std::sqrt(1.0 + a * a + b * b);
-  o = origin;
-  d = scale * (forward + a * right + b * down);
-  density *= scale * scale * scale;
-}
+FrameRays::FrameRays(const LightFrame& f)
+    : orthographic_(f.orthographic),
+      origin_(f.origin),
+      forward_(f.forward),
+      corner_((f.orthographic ? f.origin : f.forward) - f.half_width * f.right - f.half_height * f.down),
+      step_x_(2.0 * f.half_width / f.width * f.right),
+      step_y_(2.0 * f.half_height / f.height * f.down),
+      area_(4.0 * f.half_width * f.half_height / (static_cast<double>(f.width) * f.height)) {}
 
 double LightFrame::measure_density(double x, double y) const {
   const double area = 4.0 * half_width * half_height / (static_cast<double>(width) * height);

@@ -8,6 +8,7 @@
 #include "core/base/vec.h"
 #include "core/scene/light.h"
 
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -26,9 +27,6 @@ struct LightFrame {
   dvec3 ray_origin(double x, double y) const;
   dvec3 ray_direction(double x, double y) const;
 
-  // The same ray, and the measure_density there, at once.
-  void ray(double x, double y, dvec3& ray_origin, dvec3& ray_direction, double& density) const;
-
   // Solid angle (orthographic: area, m^2) of the image per texel area at (x, y).
   double measure_density(double x, double y) const;
   // Solid angle of texel (x, y), sr, exact (four corners); orthographic: its area, m^2.
@@ -36,6 +34,32 @@ struct LightFrame {
 
   // Image point of a world point. Returns false where it is behind the light or outside the image.
   bool project(const dvec3& world, dvec2& image) const;
+};
+
+// The rays of a frame, one after the other: what does not depend on the image point is worked out once.
+class FrameRays {
+ public:
+  explicit FrameRays(const LightFrame& frame);
+  // The ray through image point (x, y), and the measure_density there.
+  void ray(double x, double y, dvec3& ray_origin, dvec3& ray_direction, double& density) const {
+    const dvec3 point = corner_ + x * step_x_ + y * step_y_;
+    density = area_;
+    if (orthographic_) {
+      ray_origin = point;
+      ray_direction = forward_;
+      return;
+    }
+    const double scale = 1.0 / std::sqrt(glm::dot(point, point));
+    ray_origin = origin_;
+    ray_direction = scale * point;
+    density *= scale * scale * scale;
+  }
+
+ private:
+  bool orthographic_;
+  dvec3 origin_, forward_;
+  dvec3 corner_, step_x_, step_y_;  // of points on the plane at distance 1; orthographic: of origins
+  double area_;                     // of a texel on that plane
 };
 
 // The frames of `light`, each resolution x resolution texels. `targets` are boxes around what is to be seen:

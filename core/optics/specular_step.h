@@ -47,37 +47,55 @@ inline dvec3 reflection(const Facing& f, const dvec3& direction) {
   return glm::dot(out, f.geometric) > 0.0 ? out : reflected(direction, f.geometric);
 }
 
-// The same for refraction. Returns false where neither normal lets light through.
-inline bool refraction(const Facing& f, const dvec3& direction, double eta, dvec3& out) {
-  if (refracted(direction, f.shading, eta, out) && glm::dot(out, f.geometric) < 0.0) return true;
-  return refracted(direction, f.geometric, eta, out);
+// The same for refraction; `eta_cos` as the Fresnel equations gave it for the shading normal. Returns false
+// where neither normal lets light through.
+inline bool refraction(const SurfaceOptics& s, const Facing& f, const dvec3& direction, double eta_cos,
+                       dvec3& out) {
+  const double inverse_eta = s.crossing[!f.from_inner];
+  if (eta_cos > 0.0) {
+    out = refracted(direction, f.shading, f.cos_incident, inverse_eta, eta_cos);
+    if (glm::dot(out, f.geometric) < 0.0) return true;
+  }
+  return refracted(direction, f.geometric, s.crossing[f.from_inner], out);
 }
+
+// A path's weight that a surface mirrors and lets through, by channel, with their means.
+struct SpecularShares {
+  SpecularShares(const SpecularSplit& split, const dvec3& weight)
+      : back(weight * split.reflectance),
+        through(weight * split.transmittance),
+        mean_back(mean(back)),
+        mean_through(mean(through)),
+        eta_cos(split.eta_cos) {}
+  dvec3 back, through;
+  double mean_back, mean_through;
+  double eta_cos;  // of refraction_at
+};
 
 // Reflection with probability mean(weight * reflectance) / mean(weight * (reflectance + transmittance)), and
 // the weight divided by the probability of what was chosen; `u` is uniform in [0, 1). A direction that the
 // shading normal would send to the wrong side of the surface is taken from the geometric normal instead. The
-// weight of flux and of importance alike: radiance carries the squared ratio of indices in addition.
+// weight of flux and of importance alike: radiance carries the squared ratio of indices in addition. The mean
+// weight stays what the shares are together.
 inline SpecularChoice choose_specular(const SurfaceOptics& s, const SurfacePoint& point, const Facing& f,
-                                      const SpecularSplit& shares, const dvec3& direction,
-                                      const dvec3& weight, uint16_t medium, double u) {
+                                      const SpecularShares& shares, const dvec3& direction, uint16_t medium,
+                                      double u) {
   SpecularChoice c;
-  const dvec3 back = weight * shares.reflectance, through = weight * shares.transmittance;
-  const double b = mean(back), t = mean(through);
+  const double b = shares.mean_back, t = shares.mean_through;
   if (!(b + t > 0.0)) return c;
-  const double p_reflect = b / (b + t);
-  c.reflected = u < p_reflect;
+  c.reflected = u * (b + t) < b;
   c.medium = medium;
   if (!c.reflected) {
     if (s.thin) {
       c.direction = direction;
-    } else if (refraction(f, direction, crossing_eta(s, f.from_inner), c.direction)) {
+    } else if (refraction(s, f, direction, shares.eta_cos, c.direction)) {
       c.medium = f.from_inner ? s.outer_medium : s.inner_medium;
     } else {
       c.reflected = true;  // total reflection about both normals: rounding at the critical angle
     }
-    c.weight = through / (1.0 - p_reflect);
+    c.weight = shares.through * ((b + t) / t);
   } else {
-    c.weight = back / p_reflect;
+    c.weight = shares.back * ((b + t) / b);
   }
   if (c.reflected) c.direction = reflection(f, direction);
   c.origin = point.position + f.geometric * (c.reflected ? point.offset : -point.offset);

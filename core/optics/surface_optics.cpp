@@ -50,8 +50,8 @@ SurfaceOptics describe(const Material& m, OpticsTable& table) {
   check(m);
   SurfaceOptics s;
   s.color = dvec3(m.base_color);
-  s.ior = m.ior;
-  s.outer_ior = m.outer_ior;
+  s.crossing[0] = static_cast<double>(m.ior) / static_cast<double>(m.outer_ior);
+  s.crossing[1] = static_cast<double>(m.outer_ior) / static_cast<double>(m.ior);
   if (m.roughness >= kSmoothRoughness) {
     s.base = 1.0 - (1.0 - m.metallic) * m.transmission;  // what a rough surface lets through is not followed
     s.diffuse_scale = s.base * s.color * std::numbers::inv_pi;
@@ -63,7 +63,7 @@ SurfaceOptics describe(const Material& m, OpticsTable& table) {
     s.eta = dvec3(m.conductor_eta) / static_cast<double>(m.outer_ior);
     s.k = dvec3(m.conductor_k) / static_cast<double>(m.outer_ior);
     s.conductor = s.eta != dvec3(0.0) || s.k != dvec3(0.0);
-    const double eta = s.ior / s.outer_ior;
+    const double eta = s.crossing[0];
     s.coated = eta != 1.0;
     const double back = s.coated && s.base > 0.0 ? hemispherical_reflectance(1.0 / eta) : 0.0;
     s.diffuse_scale = s.base * s.color * std::numbers::inv_pi / (eta * eta * (1.0 - back * s.color));
@@ -76,12 +76,6 @@ SurfaceOptics describe(const Material& m, OpticsTable& table) {
   }
   s.diffuse = s.base > 0.0 && s.color != dvec3(0.0);
   return s;
-}
-
-dvec3 metal_reflectance(const SurfaceOptics& s, double cos_i) {
-  if (!s.conductor) return s.color;
-  return {fresnel_conductor(cos_i, s.eta.x, s.k.x), fresnel_conductor(cos_i, s.eta.y, s.k.y),
-          fresnel_conductor(cos_i, s.eta.z, s.k.z)};
 }
 
 }  // namespace
@@ -102,31 +96,15 @@ OpticsTable make_optics(const Scene& scene) {
   return table;
 }
 
-SpecularSplit split(const SurfaceOptics& s, double cos_i, bool from_inner) {
-  SpecularSplit r;
-  if (!s.specular) {
-    r.base_entry = s.base;
-    return r;
-  }
-  if (s.metal > 0.0) r.reflectance += s.metal * metal_reflectance(s, cos_i);
-  if (s.clear > 0.0) {
-    const double f = s.thin ? thin_sheet_reflectance(cos_i, s.ior / s.outer_ior)
-                            : fresnel_dielectric(cos_i, crossing_eta(s, from_inner));
-    r.reflectance += s.clear * f;
-    r.transmittance = s.clear * (1.0 - f) * s.color;
-  }
-  if (s.base > 0.0) {
-    // Both sides of an opaque surface are its outside.
-    const double f = s.coated ? fresnel_dielectric(cos_i, s.ior / s.outer_ior) : 0.0;
-    r.reflectance += s.base * f;
-    r.base_entry = s.base * (1.0 - f);
-  }
-  return r;
+dvec3 metal_reflectance(const SurfaceOptics& s, double cos_i) {
+  if (!s.conductor) return s.color;
+  return {fresnel_conductor(cos_i, s.eta.x, s.k.x), fresnel_conductor(cos_i, s.eta.y, s.k.y),
+          fresnel_conductor(cos_i, s.eta.z, s.k.z)};
 }
 
 dvec3 diffuse_brdf(const SurfaceOptics& s, double cos_in, double cos_out) {
   if (!s.coated) return s.diffuse_scale;
-  const double eta = s.ior / s.outer_ior;
+  const double eta = s.crossing[0];
   return (1.0 - fresnel_dielectric(cos_in, eta)) * (1.0 - fresnel_dielectric(cos_out, eta)) * s.diffuse_scale;
 }
 

@@ -12,7 +12,7 @@
 // between base and interface. A smooth material without a specular part does not exist; ior = 1 makes one.
 #pragma once
 
-#include "core/base/vec.h"
+#include "core/optics/fresnel.h"
 #include "core/scene/surface_table.h"
 
 #include <cstdint>
@@ -38,13 +38,13 @@ struct SurfaceOptics {
   double metal = 0.0, clear = 0.0, base = 0.0;  // weights of the three parts; a rough surface has base = 1
   bool coated = false;                          // the base lies under a smooth interface
   bool thin = false;
-  bool conductor = false;  // metal by complex index, else by base_color
-  dvec3 color{0.0};        // base_color
-  dvec3 eta{0.0}, k{0.0};  // of the metal
-  double ior = 1.0;        // inner index
-  double outer_ior = 1.0;
-  dvec3 diffuse_scale{0.0};  // rho / (pi eta^2 (1 - rho F_dr)), or rho / pi without interface, times
-                             // the weight of the base
+  bool conductor = false;           // metal by complex index, else by base_color
+  dvec3 color{0.0};                 // base_color
+  dvec3 eta{0.0}, k{0.0};           // of the metal
+  double crossing[2] = {1.0, 1.0};  // index beyond / index before, for light from outside and from inside:
+                                    // each the inverse of the other
+  dvec3 diffuse_scale{0.0};         // rho / (pi eta^2 (1 - rho F_dr)), or rho / pi without interface, times
+                                    // the weight of the base
   uint16_t inner_medium = 0, outer_medium = 0;  // into OpticsTable::media; of interfaces
 };
 
@@ -65,15 +65,38 @@ struct SpecularSplit {
   dvec3 reflectance{0.0};    // share of the flux that is mirrored, by channel
   dvec3 transmittance{0.0};  // share that goes through, tint included
   double base_entry = 0.0;   // share that enters the diffuse part, (1 - F) weight
+  double eta_cos = 0.0;      // of refraction_at; 0 where nothing is refracted
 };
+
+// Reflectance of the metal by channel, in [0, 1].
+dvec3 metal_reflectance(const SurfaceOptics& surface, double cos_incident);
 
 // `cos_incident` in [0, 1]; `from_inner`: the light comes from the side that the geometric normal turns away
 // from. reflectance + transmittance + base_entry <= 1, the rest is absorbed.
-SpecularSplit split(const SurfaceOptics& surface, double cos_incident, bool from_inner);
-
-// Index beyond / index before, for light that crosses the interface.
-inline double crossing_eta(const SurfaceOptics& s, bool from_inner) {
-  return from_inner ? s.outer_ior / s.ior : s.ior / s.outer_ior;
+inline SpecularSplit split(const SurfaceOptics& s, double cos_incident, bool from_inner) {
+  SpecularSplit r;
+  if (!s.specular) {
+    r.base_entry = s.base;
+    return r;
+  }
+  if (s.metal > 0.0) r.reflectance += s.metal * metal_reflectance(s, cos_incident);
+  if (s.clear > 0.0) {
+    Refraction at;
+    if (s.thin)
+      at.reflectance = thin_sheet_reflectance(cos_incident, s.crossing[0]);
+    else
+      at = refraction_at(cos_incident, s.crossing[from_inner]);
+    r.eta_cos = at.eta_cos;
+    r.reflectance += s.clear * at.reflectance;
+    r.transmittance = (s.clear * (1.0 - at.reflectance)) * s.color;
+  }
+  if (s.base > 0.0) {
+    // Both sides of an opaque surface are its outside.
+    const double f = s.coated ? fresnel_dielectric(cos_incident, s.crossing[0]) : 0.0;
+    r.reflectance += s.base * f;
+    r.base_entry = s.base * (1.0 - f);
+  }
+  return r;
 }
 
 // Diffuse BRDF of the mixture, 1/sr, by channel. Cosines in [0, 1]; reciprocal.

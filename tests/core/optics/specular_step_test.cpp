@@ -64,7 +64,7 @@ SurfacePoint point_with(const dvec3& geometric, const dvec3& shading) {
 SpecularChoice choose(const SurfaceOptics& s, const SurfacePoint& p, const dvec3& direction,
                       const dvec3& weight, double u, uint16_t medium = 7) {
   const Facing f = facing(p, direction);
-  return choose_specular(s, p, f, split(s, f.cos_incident, f.from_inner), direction, weight, medium, u);
+  return choose_specular(s, p, f, {split(s, f.cos_incident, f.from_inner), weight}, direction, medium, u);
 }
 
 TEST(SpecularStep, TheExpectationOfTheWeightIsTheSpecularShareByChannel) {
@@ -105,7 +105,7 @@ TEST(SpecularStep, ColouredLightChoosesByWhatItCarries) {
   const dvec3 direction(0.6, -0.8, 0.0);
   const Facing f = facing(p, direction);
   const auto at = [&](const dvec3& weight, double u) {
-    return choose_specular(s, p, f, shares, direction, weight, 0, u);
+    return choose_specular(s, p, f, {shares, weight}, direction, 0, u);
   };
   for (const double u : {0.0, 0.5, 0.999999}) {
     EXPECT_TRUE(at(dvec3(1.0, 0.0, 0.0), u).reflected);
