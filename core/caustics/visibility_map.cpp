@@ -38,7 +38,7 @@ void add_frame(VisibilityMap& map, const Scene& scene, const optics::OpticsTable
   const LightFrame& frame = buffer.frame;
   const Intensity intensity(scene.lights[map.light]);
   const auto number = static_cast<uint16_t>(map.frames.size());
-  MapFrame result{frame, std::move(buffer.texels), Image2D<uint8_t>(frame.width, frame.height)};
+  MapFrame result{frame, std::move(buffer.texels), TiledImage<uint8_t>(frame.width, frame.height, tiles)};
   const auto visit = [&](int x, int y, Block& block) {
     const dvec3 direction = frame.ray_direction(x + 0.5, y + 0.5);
     const double shines = optics::mean(intensity(direction));
@@ -46,7 +46,7 @@ void add_frame(VisibilityMap& map, const Scene& scene, const optics::OpticsTable
     const float share =
         reflect_share(scene, optics, result.surface(x, y), frame.ray_origin(x + 0.5, y + 0.5), direction);
     if (share < 0.0f) return;
-    result.active(x, y) = 1;
+    result.active.at(x, y) = 1;
     block.texels.push_back({static_cast<uint16_t>(x), static_cast<uint16_t>(y), number, share});
     block.flux += shines * frame.texel_measure(x, y);
   };

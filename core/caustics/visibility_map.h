@@ -14,8 +14,8 @@ namespace hybray::caustics {
 // One image plane of a map.
 struct MapFrame {
   LightFrame frame;
-  Image2D<LightTexel> surface;  // what each texel's centre sees, of any material; empty tiles are not traced
-  Image2D<uint8_t> active;      // 1 where that is a specular surface and the light shines there
+  TiledImage<LightTexel> surface;  // what each texel's centre sees, of any material; in traced tiles
+  TiledImage<uint8_t> active;      // 1 where that is a specular surface and the light shines there
 };
 
 // One texel of non-zero probability.

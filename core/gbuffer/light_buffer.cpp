@@ -29,14 +29,14 @@ size_t trace_tile(const Tracer& tracer, LightBuffer& buffer, int tile_x, int til
   tracer.intersect_batch(std::span(origins).first(count), std::span(directions).first(count),
                          std::span(hits).first(count), TraceMode::packet16_coherent);
   for (size_t i = 0; i < count; ++i)
-    buffer.texels(places[i].x, places[i].y) = {hits[i].t, hits[i].primitive, hits[i].u, hits[i].v};
+    buffer.texels.at(places[i].x, places[i].y) = {hits[i].t, hits[i].primitive, hits[i].u, hits[i].v};
   return count;
 }
 
 }  // namespace
 
 LightBuffer make_light_buffer(const Tracer& tracer, const LightFrame& frame, std::span<const uint8_t> tiles) {
-  LightBuffer buffer{frame, Image2D<LightTexel>(frame.width, frame.height), 0};
+  LightBuffer buffer{frame, TiledImage<LightTexel>(frame.width, frame.height, tiles), 0};
   const size_t tiles_x = static_cast<size_t>((frame.width + kMortonTile - 1) / kMortonTile);
   const size_t tiles_y = static_cast<size_t>((frame.height + kMortonTile - 1) / kMortonTile);
   HYBRAY_CHECK(tiles.empty() || tiles.size() == tiles_x * tiles_y);

@@ -1,7 +1,7 @@
 // What a light sees through its texels: the geometry buffer of a LightFrame.
 #pragma once
 
-#include "core/base/image2d.h"
+#include "core/base/tiled_image.h"
 #include "core/gbuffer/light_frame.h"
 #include "core/tracer/tracer.h"
 
@@ -20,8 +20,8 @@ struct LightTexel {
 
 struct LightBuffer {
   LightFrame frame;
-  Image2D<LightTexel> texels;  // width x height of the frame; kNoPrimitive where nothing is seen
-  size_t traced = 0;           // texels that a ray was traced for
+  TiledImage<LightTexel> texels;  // width x height of the frame; kNoPrimitive where nothing is seen
+  size_t traced = 0;              // texels that a ray was traced for
 };
 
 // Traces the texel centres of the tiles marked in `tiles` (8x8 texels, row by row; empty: all of them) in

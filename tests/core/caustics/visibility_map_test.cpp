@@ -160,7 +160,7 @@ TEST(VisibilityMap, TexelsAreThoseWhoseCentresSeeASpecularSurfaceThatIsLit) {
       EXPECT_TRUE(t.reflect >= 0.0f && t.reflect <= 1.0f);
     }
     for (const MapFrame& f : map.frames)
-      EXPECT_GT(std::count(f.active.begin(), f.active.end(), 1), 0) << "empty frames are dropped";
+      EXPECT_GT(std::ranges::count(f.active.values(), 1), 0) << "empty frames are dropped";
   }
 }
 

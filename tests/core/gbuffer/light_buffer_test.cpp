@@ -93,7 +93,10 @@ TEST(LightBuffer, IsTheSameAtAnyNumberOfThreads) {
   const LightBuffer many = make_light_buffer(tracer, frame);
   const ThreadLimit limit(1);
   const LightBuffer one = make_light_buffer(tracer, frame);
-  EXPECT_EQ(std::memcmp(one.texels.data(), many.texels.data(), one.texels.size() * sizeof(LightTexel)), 0);
+  ASSERT_EQ(one.texels.values().size(), many.texels.values().size());
+  EXPECT_EQ(
+      std::memcmp(one.texels.values().data(), many.texels.values().data(), one.texels.values().size_bytes()),
+      0);
 }
 
 }  // namespace
