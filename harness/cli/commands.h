@@ -55,4 +55,7 @@ int scene_info_command(const Environment& environment, const std::string& scene)
 int scene_export_command(const Environment& environment, const std::string& scene, const std::string& file);
 int scene_render_command(const Environment& environment, const SceneRenderOptions& options);
 
+// Reports on the program, the machine and what figures and report need. kUsage where no run could work.
+int doctor_command(const Environment& environment);
+
 }  // namespace hybray

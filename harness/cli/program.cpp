@@ -2,9 +2,13 @@
 
 #include "core/base/error.h"
 #include "harness/cli/commands.h"
+#include "harness/cli/completion.h"
 #include "harness/cli/log.h"
 #include "harness/cli/project_root.h"
 #include "harness/table/build_info.h"
+
+#include <iostream>
+#include <map>
 
 #include <CLI/CLI.hpp>
 
@@ -43,6 +47,8 @@ class CommandLine {
     add_points();
     add_describe();
     add_scene();
+    add_doctor();
+    add_completion();
   }
 
   CLI::App& app() { return app_; }
@@ -100,19 +106,19 @@ class CommandLine {
     list->callback([this] { action_ = scene_list_command; });
 
     CLI::App* info = scene->add_subcommand("info", "What is in a scene");
-    info->add_option("NAME", render_.scene, "Scene")->required()->type_name("TEXT");
+    info->add_option("NAME", render_.scene, "Scene")->required()->type_name("SCENE");
     info->callback(
         [this] { action_ = [this](const Environment& e) { return scene_info_command(e, render_.scene); }; });
 
     CLI::App* save = scene->add_subcommand("export", "Write a scene as binary glTF");
-    save->add_option("NAME", render_.scene, "Scene")->required()->type_name("TEXT");
+    save->add_option("NAME", render_.scene, "Scene")->required()->type_name("SCENE");
     save->add_option("-o,--output", render_.file, "File to write")->required()->type_name("FILE.glb");
     save->callback([this] {
       action_ = [this](const Environment& e) { return scene_export_command(e, render_.scene, render_.file); };
     });
 
     CLI::App* render = scene->add_subcommand("render", "Draw a scene, to look at it");
-    render->add_option("NAME", render_.scene, "Scene")->required()->type_name("TEXT");
+    render->add_option("NAME", render_.scene, "Scene")->required()->type_name("SCENE");
     render->add_option("--camera", render_.camera, "Camera (default: the scene's first)")->type_name("NAME");
     render->add_option("--resolution", render_.resolution, "Size of the picture in pixels")
         ->type_name("WxH")
@@ -123,11 +129,36 @@ class CommandLine {
         [this] { action_ = [this](const Environment& e) { return scene_render_command(e, render_); }; });
   }
 
+  void add_doctor() {
+    app_.add_subcommand("doctor", "What the program runs on, what would spoil its numbers, what is missing")
+        ->callback([this] { action_ = doctor_command; });
+  }
+
+  void add_completion() {
+    CLI::App* command = app_.add_subcommand("completion", "Print a script that completes this command line");
+    command->footer("For example: source <(hybray completion bash)");
+    const std::map<std::string, Shell> shells{
+        {"bash", Shell::bash}, {"zsh", Shell::zsh}, {"fish", Shell::fish}};
+    command->add_option("SHELL", shell_, "bash, zsh or fish")
+        ->required()
+        ->transform(CLI::CheckedTransformer(shells))
+        ->type_name("TEXT");
+    command->callback([this] {
+      action_ = [this](const Environment& environment) {
+        std::vector<std::string> names;
+        for (const Experiment& experiment : environment.experiments) names.push_back(experiment.name);
+        std::cout << completion_script(app_, shell_, names);
+        return int{kOk};
+      };
+    });
+  }
+
   CLI::App app_;
   RunOptions run_;
   PointsOptions points_;
   DescribeOptions describe_;
   bool schema_ = false, markdown_ = false;
+  Shell shell_ = Shell::bash;
   SceneRenderOptions render_;  // its scene and file serve info and export as well
   std::function<int(const Environment&)> action_;
 };
