@@ -9,6 +9,7 @@ else()
 endif()
 message(STATUS "Embree ${embree_VERSION}")
 
+find_package(Boost REQUIRED CONFIG)  # headers alone
 find_package(CLI11 REQUIRED CONFIG)
 find_package(TBB REQUIRED CONFIG)
 find_package(TinyGLTF REQUIRED CONFIG)

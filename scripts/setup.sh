@@ -1,18 +1,23 @@
 #!/usr/bin/env bash
 # Installs what hybray needs on Debian 12 or newer. Safe to run again: it installs only what is missing.
-#   scripts/setup.sh          what the build, the tests and the scripts need
-#   scripts/setup.sh --dev    clang-format too, for scripts/lint.sh
+#   scripts/setup.sh                 what the build, the tests and the scripts need
+#   scripts/setup.sh --dev           clang-format too, for scripts/lint.sh
+#   scripts/setup.sh --report-test   a browser too, for scripts/test_report.sh
+#   scripts/setup.sh --workflow      Snakemake too, for scripts/test_workflow.sh
 set -euo pipefail
 
 packages=(
-  g++ cmake ninja-build pkg-config ccache git python3
+  g++ cmake ninja-build pkg-config ccache git python3 python3-matplotlib
   libembree-dev libopenimageio-dev libglm-dev libtinygltf-dev nlohmann-json3-dev libvalijson-dev
-  libtbb-dev libcli11-dev libspdlog-dev libfmt-dev libxxhash-dev libgtest-dev libbenchmark-dev
+  libtbb-dev libboost-dev libcli11-dev libspdlog-dev libfmt-dev libxxhash-dev libgtest-dev libbenchmark-dev
+  python3-jinja2 python3-pil
 )
 case "${1:-}" in
   "") ;;
   --dev) packages+=(clang-format) ;;
-  *) sed -n '2,4p' "$0"; exit 2 ;;
+  --report-test) packages+=(chromium chromium-driver fonts-dejavu-core python3-selenium python3-numpy) ;;
+  --workflow) packages+=(snakemake) ;;
+  *) sed -n '2,6p' "$0"; exit 2 ;;
 esac
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then

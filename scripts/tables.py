@@ -2,114 +2,129 @@
 """Prints the SSRM paper's Tables 1 to 3, as measured here, beside the paper's own, from the CSV of an `ssrm` run."""
 
 import argparse
-import csv
 import sys
 from collections import defaultdict
 from pathlib import Path
 
+from csv_table import Row, Table, TableError, number, read_table, whole
+from text_table import TextTable
+
 PAPER = Path(__file__).resolve().parent.parent / "results" / "paper"
 # Which of the paper's scenes a scene stands for.
 COUNTERPART = {"sphere": "Sphere", "atrium": "Sponza", "sponza": "Sponza", "street": "Bistro", "bistro": "Bistro"}
-Row = dict[str, str]
-
-
-def read(path: Path) -> list[Row]:
-    with path.open(newline="") as file:
-        return list(csv.DictReader(file))
+TABLE2 = [("fastest mode", "t_hw_ms", 2), ("one ray at a time", "t_hw_single_ms", 2)]
+TABLE3 = [("estimate, sequential (paper's formula)", "speedup_sequential", 3),
+          ("estimate, partitioned (perfect predictor)", "speedup_partitioned", 3),
+          ("measured against the fastest mode", "speedup_measured", 3),
+          ("measured, single rays on both sides", "speedup_measured_vs_single", 3)]
+ACCURACY = [("alpha", 3), ("alpha_max", 3), ("precision", 4), ("recall", 3), ("miss_fraction", 3), ("steps_per_ray", 1),
+            ("unresolved_cost_ratio", 2), ("break_even_alpha", 2)]
+NEEDED = ("scene", "camera", "width", "height", "threads", "t_ss_ms", *(c for _, c, _ in [*TABLE2, *TABLE3]),
+          *(c for c, _ in ACCURACY))
+Size = tuple[int, int]
 
 
 def mean(rows: list[Row], column: str) -> float | None:
-    values = [float(row[column]) for row in rows if row.get(column)]
+    values = [v for row in rows if (v := number(row, column)) is not None]
     return sum(values) / len(values) if values else None
 
 
-def text(value: float | None, digits: int) -> str:
+def shown(value: float | None, digits: int) -> str:
     return "" if value is None else f"{value:.{digits}f}"
-
-
-def show(title: str, head: list[str], lines: list[list[str]]) -> None:
-    widths = [max(len(line[i]) for line in [head, *lines]) for i in range(len(head))]
-    print(f"\n{title}")
-    for line in [head, ["-" * w for w in widths], *lines]:
-        print("  ".join(cell.ljust(w) if i == 0 else cell.rjust(w) for i, (cell, w) in enumerate(zip(line, widths))).rstrip())
 
 
 class Measured:
     """The rows of one run, averaged over cameras for each scene and resolution."""
 
-    def __init__(self, rows: list[Row]):
+    def __init__(self, table: Table):
         self.cells: dict[tuple[str, int, int], list[Row]] = defaultdict(list)
-        for row in rows:
-            self.cells[row["scene"], int(row["width"]), int(row["height"])].append(row)
+        for row in table.rows:
+            self.cells[row["scene"], whole(row, "width"), whole(row, "height")].append(row)
         self.scenes = list(dict.fromkeys(scene for scene, _, _ in self.cells))
         self.sizes = sorted({(w, h) for _, w, h in self.cells}, key=lambda s: s[0] * s[1])
         self.heads = [f"{w}x{h}" for w, h in self.sizes]
+        self.cameras = len({(row["scene"], row["camera"]) for row in table.rows})
 
     def line(self, scene: str, column: str, digits: int) -> list[str]:
-        return [text(mean(self.cells.get((scene, w, h), []), column), digits) for w, h in self.sizes]
+        return [shown(mean(self.cells.get((scene, w, h), []), column), digits) for w, h in self.sizes]
 
 
 class Paper:
-    """The paper's numbers by scene and resolution."""
+    """The paper's numbers, as it prints them, by scene and resolution."""
 
     def __init__(self) -> None:
-        self.table1 = {(int(r["width"]), int(r["height"])): r for r in read(PAPER / "ssrm_table1.csv")}
-        self.table2 = {(r["scene"], int(r["width"]), int(r["height"])): r["t_hw_ms"] for r in read(PAPER / "ssrm_table2.csv")}
-        self.table3 = {(r["scene"], int(r["width"]), int(r["height"])): r["speedup_sequential"]
-                       for r in read(PAPER / "ssrm_table3.csv")}
+        self.table1 = {self.size(r): r for r in read_table(PAPER / "ssrm_table1.csv", "t_ss_ms", "t_ss_implied_ms").rows}
+        self.table2 = {(r["scene"], *self.size(r)): r["t_hw_ms"] for r in read_table(PAPER / "ssrm_table2.csv", "t_hw_ms").rows}
+        speedups = read_table(PAPER / "ssrm_table3.csv", "speedup_sequential", "alpha").rows
+        self.table3 = {(r["scene"], *self.size(r)): r["speedup_sequential"] for r in speedups}
+        self.alpha = speedups[0]["alpha"]  # the average that it states, the same in every row
 
-    def line(self, table: dict, scene: str, sizes: list[tuple[int, int]]) -> list[str]:
+    @staticmethod
+    def size(row: Row) -> Size:
+        return whole(row, "width"), whole(row, "height")
+
+    @staticmethod
+    def line(table: dict, scene: str, sizes: list[Size]) -> list[str]:
         return [table.get((COUNTERPART.get(scene, ""), w, h), "") for w, h in sizes]
 
 
-def table1(m: Measured, paper: Paper) -> None:
+def table1(m: Measured, paper: Paper) -> TextTable:
     lines = [[scene, *m.line(scene, "t_ss_ms", 3)] for scene in m.scenes]
     for label, column in (("paper (GPU)", "t_ss_ms"), ("  implied by its Table 3", "t_ss_implied_ms")):
         lines.append([label, *(paper.table1.get(size, {}).get(column, "") for size in m.sizes)])
-    show("Table 1. SSRM time, ms", ["scene", *m.heads], lines)
+    return TextTable("Table 1. SSRM time, ms", ["scene", *m.heads], lines, "tab:ssrm-time")
 
 
-def paired(title: str, m: Measured, rows: list[tuple[str, str, int]], paper: Paper, table: dict) -> None:
+def paired(title: str, label: str, m: Measured, rows: list[tuple[str, str, int]], paper: Paper, table: dict) -> TextTable:
     lines = []
     for scene in m.scenes:
-        lines += [[f"{scene}: {label}", *m.line(scene, column, digits)] for label, column, digits in rows]
+        lines += [[f"{scene}: {text}", *m.line(scene, column, digits)] for text, column, digits in rows]
         lines.append([f"  paper, {COUNTERPART.get(scene, '-')} (GPU)", *paper.line(table, scene, m.sizes)])
-    show(title, ["scene", *m.heads], lines)
+    return TextTable(title, ["scene", *m.heads], lines, label)
 
 
-def accuracy(m: Measured) -> None:
-    columns = [("alpha", 3), ("alpha_max", 3), ("precision", 4), ("recall", 3), ("miss_fraction", 3), ("steps_per_ray", 1),
-               ("unresolved_cost_ratio", 2), ("break_even_alpha", 2)]
-    lines = [[f"{scene} {w}x{h}", *(text(mean(m.cells[scene, w, h], c), d) for c, d in columns)]
+def accuracy(m: Measured, paper: Paper) -> TextTable:
+    lines = [[f"{scene} {w}x{h}", *(shown(mean(m.cells[scene, w, h], c), d) for c, d in ACCURACY)]
              for scene in m.scenes for w, h in m.sizes if (scene, w, h) in m.cells]
-    show("What the tables rest on (the paper: mean alpha 0.31)", ["scene", *(c for c, _ in columns)], lines)
+    return TextTable(f"What the tables rest on (the paper: mean alpha {paper.alpha})", ["scene", *(c for c, _ in ACCURACY)], lines,
+                     "tab:ssrm-accuracy")
+
+
+def text_tables(m: Measured) -> list[TextTable]:
+    paper = Paper()
+    return [table1(m, paper),
+            paired("Table 2. General tracer on all rays, ms", "tab:general-tracer", m, TABLE2, paper, paper.table2),
+            paired("Table 3. Speedup of the hybrid over the general tracer", "tab:speedup", m, TABLE3, paper, paper.table3),
+            accuracy(m, paper)]
+
+
+def preface(table: Table, m: Measured) -> str:
+    return (f"{len(table.rows)} points, {m.cameras} cameras of {len(m.scenes)} scenes, {table.rows[0]['threads']} threads; "
+            "means over cameras. Speedups compare within one row; times of other machines do not compare.\n")
+
+
+def as_text(table: Table) -> str:
+    m = Measured(table)
+    return "\n".join([preface(table, m), *(t.text() for t in text_tables(m))])
+
+
+def as_latex(table: Table) -> str:
+    """Table environments with \\usepackage{booktabs}."""
+    m = Measured(table)
+    return "\n".join([f"% {preface(table, m)}", *(t.latex() for t in text_tables(m))])
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("table", type=Path, help="CSV written by `hybray run` of an ssrm config")
-    path = parser.parse_args().table
+    parser.add_argument("--latex", action="store_true", help="LaTeX, with booktabs, instead of text")
+    arguments = parser.parse_args()
     try:
-        rows = read(path)
-    except OSError as error:
-        print(f"tables: {path}: {error.strerror}", file=sys.stderr)
+        table = read_table(arguments.table, *NEEDED)
+        print(as_latex(table) if arguments.latex else as_text(table), end="")
+    except TableError as error:
+        print(f"tables: {error}", file=sys.stderr)
         return 2
-    if not rows or "t_ss_ms" not in rows[0]:
-        print(f"tables: {path}: not a table of the experiment ssrm with at least one row", file=sys.stderr)
-        return 2
-    m, paper = Measured(rows), Paper()
-    cameras = len({(row["scene"], row["camera"]) for row in rows})
-    print(f"{len(rows)} points, {cameras} cameras of {len(m.scenes)} scenes, {rows[0]['threads']} threads; "
-          "means over cameras. Speedups compare within one row; times of other machines do not compare.")
-    table1(m, paper)
-    paired("Table 2. General tracer on all rays, ms", m,
-           [("fastest mode", "t_hw_ms", 2), ("one ray at a time", "t_hw_single_ms", 2)], paper, paper.table2)
-    paired("Table 3. Speedup of the hybrid over the general tracer", m,
-           [("estimate, sequential (paper's formula)", "speedup_sequential", 3),
-            ("estimate, partitioned (perfect predictor)", "speedup_partitioned", 3),
-            ("measured against the fastest mode", "speedup_measured", 3),
-            ("measured, single rays on both sides", "speedup_measured_vs_single", 3)], paper, paper.table3)
-    accuracy(m)
     return 0
 
 

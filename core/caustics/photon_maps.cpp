@@ -1,7 +1,7 @@
 #include "core/caustics/photon_maps.h"
 
+#include "core/base/check.h"
 #include "core/base/parallel.h"
-#include "core/caustics/grouped_tree.h"
 
 #include <algorithm>
 #include <atomic>
@@ -15,13 +15,13 @@ namespace {
 constexpr size_t kBlock = 2048;
 constexpr float kSameSurface = 0.70710678f;  // cosine between the normals of a pair
 
-// Adds one pair if it counts; returns whether it does.
-bool add_pair(const Photon& photon, const VisibilityPoint& point, const optics::OpticsTable& optics,
-              FixedPointImage& image) {
+// Adds one pair if it counts, with a sphere of this radius; returns whether it does.
+bool add_pair(const Photon& photon, const VisibilityPoint& point, float radius,
+              const optics::OpticsTable& optics, FixedPointImage& image) {
   const vec3 apart = photon.position - point.position;
-  if (!(glm::dot(apart, apart) <= point.radius * point.radius)) return false;
+  if (!(glm::dot(apart, apart) <= radius * radius)) return false;
   if (!(glm::dot(photon.normal, point.normal) > kSameSurface) || !(photon.shading_ratio > 0.0f)) return false;
-  const double r = point.radius;
+  const double r = radius;
   const dvec3 brdf =
       optics::diffuse_brdf(optics.materials[point.material], static_cast<double>(photon.cos_in),
                            static_cast<double>(point.cos_out));
@@ -30,29 +30,18 @@ bool add_pair(const Photon& photon, const VisibilityPoint& point, const optics::
   return true;
 }
 
-Bounds3 sphere_box(const VisibilityPoint& point) {
-  return {point.position - point.radius, point.position + point.radius};
+Bounds3 sphere_box(const VisibilityPoint& point, float radius) {
+  return {point.position - radius, point.position + radius};
 }
 
-// Backward maps: every photon looks for the spheres that it lies in.
-PhotonMapCounts scatter(const Scene& scene, const optics::OpticsTable& optics, const PhotonBlocks& photons,
-                        const std::vector<VisibilityPoint>& points, FixedPointImage& image) {
+GroupedTree tree_of_spheres(const Scene& scene, const std::vector<VisibilityPoint>& points, float widening) {
   std::vector<Bounds3> boxes(points.size());
   std::vector<uint32_t> primitives(points.size());
   parallel_blocks(points.size(), kBlock, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i)
-      boxes[i] = sphere_box(points[i]), primitives[i] = points[i].primitive;
+      boxes[i] = sphere_box(points[i], points[i].radius * widening), primitives[i] = points[i].primitive;
   });
-  const GroupedTree tree(scene, boxes, primitives);
-  std::atomic<uint64_t> pairs{0};
-  parallel_blocks(photons.blocks().size(), 1, [&](size_t begin, size_t) {
-    uint64_t mine = 0;
-    for (const Photon& photon : photons.blocks()[begin])
-      tree.visit(Bounds3{photon.position, photon.position},
-                 [&](size_t i) { mine += add_pair(photon, points[i], optics, image); });
-    pairs += mine;
-  });
-  return {pairs, tree.memory_bytes()};
+  return GroupedTree(scene, boxes, primitives);
 }
 
 // Forward maps: every visibility point looks for the photons in its sphere.
@@ -72,8 +61,8 @@ PhotonMapCounts gather(const Scene& scene, const optics::OpticsTable& optics, co
   parallel_blocks(points.size(), kBlock, [&](size_t begin, size_t end) {
     uint64_t mine = 0;
     for (size_t i = begin; i < end; ++i)
-      tree.visit(sphere_box(points[i]),
-                 [&](size_t j) { mine += add_pair(*items[j], points[i], optics, image); });
+      tree.visit(sphere_box(points[i], points[i].radius),
+                 [&](size_t j) { mine += add_pair(*items[j], points[i], points[i].radius, optics, image); });
     pairs += mine;
   });
   return {pairs, tree.memory_bytes()};
@@ -81,11 +70,37 @@ PhotonMapCounts gather(const Scene& scene, const optics::OpticsTable& optics, co
 
 }  // namespace
 
+BackwardMap::BackwardMap(const Scene& scene, const optics::OpticsTable& optics,
+                         const VisibilityPoints& visible, float widening)
+    : optics_(optics),
+      points_(visible.points),
+      widening_(widening),
+      tree_(tree_of_spheres(scene, points_, widening)) {
+  HYBRAY_CHECK_LE(1.0f, widening);
+}
+
+// Every photon looks for the spheres that it lies in.
+PhotonMapCounts BackwardMap::add(const PhotonBlocks& photons, FixedPointImage& image,
+                                 FixedPointImage* wide) const {
+  std::atomic<uint64_t> pairs{0};
+  parallel_blocks(photons.blocks().size(), 1, [&](size_t begin, size_t) {
+    uint64_t mine = 0;
+    for (const Photon& photon : photons.blocks()[begin])
+      tree_.visit(Bounds3{photon.position, photon.position}, [&](size_t i) {
+        const VisibilityPoint& point = points_[i];
+        mine += add_pair(photon, point, point.radius, optics_, image);
+        if (wide) add_pair(photon, point, point.radius * widening_, optics_, *wide);
+      });
+    pairs += mine;
+  });
+  return {pairs, tree_.memory_bytes()};
+}
+
 PhotonMapCounts add_mixed_caustics(PhotonMapKind kind, const Scene& scene, const optics::OpticsTable& optics,
                                    const PhotonBlocks& photons, const VisibilityPoints& visible,
                                    FixedPointImage& image) {
   if (photons.empty() || visible.points.empty()) return {};
-  return kind == PhotonMapKind::backward ? scatter(scene, optics, photons, visible.points, image)
+  return kind == PhotonMapKind::backward ? BackwardMap(scene, optics, visible).add(photons, image)
                                          : gather(scene, optics, photons, visible.points, image);
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/caustics/fixed_point_image.h"
+#include "core/caustics/grouped_tree.h"
 #include "core/caustics/photon_blocks.h"
 #include "core/caustics/visibility_points.h"
 #include "core/optics/surface_optics.h"
@@ -27,6 +28,26 @@ struct PhotonMapCounts {
 PhotonMapCounts add_mixed_caustics(PhotonMapKind kind, const Scene& scene, const optics::OpticsTable& optics,
                                    const PhotonBlocks& photons, const VisibilityPoints& visible,
                                    FixedPointImage& image);
+
+// Backward maps for photons that come in portions, over visibility points that stay: their tree is built
+// once. One search can serve two radii, as the bias of photon mapping needs them.
+class BackwardMap {
+ public:
+  // `widening` >= 1: radius of the wide spheres over that of the points. All three must outlive the map.
+  BackwardMap(const Scene& scene, const optics::OpticsTable& optics, const VisibilityPoints& visible,
+              float widening = 1.0f);
+
+  // Adds to `image` what add_mixed_caustics adds, and to `wide`, where it is given, what that would add with
+  // wide spheres. The pairs counted are those of `image`.
+  PhotonMapCounts add(const PhotonBlocks& photons, FixedPointImage& image,
+                      FixedPointImage* wide = nullptr) const;
+
+ private:
+  const optics::OpticsTable& optics_;
+  const std::vector<VisibilityPoint>& points_;
+  float widening_;
+  GroupedTree tree_;  // over the wide spheres
+};
 
 // The greatest radiance that `flux` watts can give one pixel through these points, for the scale of a
 // FixedPointImage.

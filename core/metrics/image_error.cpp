@@ -46,8 +46,8 @@ ImageError image_error(const Image2D<vec3>& image, const ReferenceImage& referen
   }
   if (mask) require_mask(*mask, image);
 
-  const auto sums = sum_rows<6>(r.height(), [&](int y) {
-    double relative = 0.0, own = 0.0, sum_x = 0.0, sum_r = 0.0, square = 0.0, pixels = 0.0;
+  const auto sums = sum_rows<7>(r.height(), [&](int y) {
+    double relative = 0.0, own = 0.0, sum_x = 0.0, sum_r = 0.0, square = 0.0, symmetric = 0.0, pixels = 0.0;
     for (int x = 0; x < r.width(); ++x) {
       if (mask && !(*mask)(x, y)) continue;
       const dvec3 a(image(x, y)), b(r(x, y)), weight = 1.0 / (b * b + e), apart = (a - b) * (a - b);
@@ -56,11 +56,13 @@ ImageError image_error(const Image2D<vec3>& image, const ReferenceImage& referen
       sum_x += total(a);
       sum_r += total(b);
       square += total(apart);
+      for (int c = 0; c < 3; ++c)
+        if (a[c] != b[c]) symmetric += std::abs(a[c] - b[c]) / (a[c] + b[c]);
       pixels += 1.0;
     }
-    return std::array{relative, own, sum_x, sum_r, square, pixels};
+    return std::array{relative, own, sum_x, sum_r, square, symmetric, pixels};
   });
-  const auto [relative, own, sum_x, sum_r, square, pixels] = sums;
+  const auto [relative, own, sum_x, sum_r, square, symmetric, pixels] = sums;
   if (pixels == 0.0) throw InputError("mask", "it leaves no pixel to compare");
   if (!(sum_r > 0.0)) throw InputError("reference", "it is black in the mask: no error is relative to it");
 
@@ -75,6 +77,7 @@ ImageError image_error(const Image2D<vec3>& image, const ReferenceImage& referen
   result.reference_relmse = own / (3.0 * pixels);
   result.energy_ratio = sum_x / sum_r;
   result.rmse = std::sqrt(square / (3.0 * pixels));
+  result.smape = symmetric / (3.0 * pixels);
   result.lit_fraction = static_cast<double>(errors.size()) / pixels;
   result.median_relative_error = errors.empty() ? 0.0 : median(errors);
   return result;

@@ -2,6 +2,8 @@
 //
 // relMSE is the relative mean squared error of Rousselle, Knaus and Zwicker (2011), with the squared floor
 // e = (1 % of the reference's mean)^2 in place of a fixed constant, so that it does not depend on the unit.
+// SMAPE is the symmetric mean absolute percentage error as Vogels et al. (2018) use it, without their
+// constant.
 #pragma once
 
 #include "core/base/image2d.h"
@@ -26,6 +28,7 @@ struct ImageError {
   double reference_relmse = 0.0;       // the reference's own: mean(variance / (r^2 + e))
   double energy_ratio = 0.0;           // sum x / sum r
   double rmse = 0.0;                   // sqrt(mean((x - r)^2)), W/(sr m^2)
+  double smape = 0.0;                  // mean(|x - r| / (x + r)), 0 where both are black; in [0, 1]
   double lit_fraction = 0.0;           // pixels whose channel mean in the reference is above sqrt(e) / pixels
   double median_relative_error = 0.0;  // over lit pixels, of |x - r| / r of channel means
 

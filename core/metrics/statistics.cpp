@@ -22,17 +22,24 @@ double spread(std::span<const double> values) {
   return quantile(values, 0.75) - quantile(values, 0.25);
 }
 
+Interval bootstrap(std::span<const double> values,
+                   const std::function<double(std::span<const double>)>& statistic, uint64_t seed,
+                   int resamples) {
+  const size_t n = values.size();
+  std::vector<double> sample(n), statistics(static_cast<size_t>(resamples));
+  for (int r = 0; r < resamples; ++r) {
+    for (size_t i = 0; i < n; ++i) sample[i] = values[random_bits(i, 0, static_cast<uint32_t>(r), seed) % n];
+    statistics[static_cast<size_t>(r)] = statistic(sample);
+  }
+  return {statistic(values), quantile(statistics, 0.025), quantile(statistics, 0.975)};
+}
+
 Interval median_ratio(std::span<const double> numerator, std::span<const double> denominator, uint64_t seed,
                       int resamples) {
   HYBRAY_CHECK_EQ(numerator.size(), denominator.size());
-  const size_t n = numerator.size();
-  std::vector<double> ratios(n), sample(n), medians(static_cast<size_t>(resamples));
-  for (size_t i = 0; i < n; ++i) ratios[i] = numerator[i] / denominator[i];
-  for (int r = 0; r < resamples; ++r) {
-    for (size_t i = 0; i < n; ++i) sample[i] = ratios[random_bits(i, 0, static_cast<uint32_t>(r), seed) % n];
-    medians[static_cast<size_t>(r)] = median(sample);
-  }
-  return {median(ratios), quantile(medians, 0.025), quantile(medians, 0.975)};
+  std::vector<double> ratios(numerator.size());
+  for (size_t i = 0; i < ratios.size(); ++i) ratios[i] = numerator[i] / denominator[i];
+  return bootstrap(ratios, median, seed, resamples);
 }
 
 }  // namespace hybray::metrics

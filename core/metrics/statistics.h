@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 
 namespace hybray::metrics {
@@ -19,9 +20,14 @@ struct Interval {
   double value, low, high;
 };
 
-// Median of numerator[i] / denominator[i], taken pair by pair, with its 95 % percentile bootstrap interval
-// (Efron) over the pairs. Deterministic for a given seed. Both spans have the same length, at least 1;
-// denominators are not zero.
+// A statistic of independent values with its 95 % percentile bootstrap interval (Efron 1979). Deterministic
+// for a given seed. At least one value; the statistic is given as many values as there are.
+Interval bootstrap(std::span<const double> values,
+                   const std::function<double(std::span<const double>)>& statistic, uint64_t seed,
+                   int resamples = 2000);
+
+// Median of numerator[i] / denominator[i], taken pair by pair, bootstrapped over the pairs. Both spans have
+// the same length, at least 1; denominators are not zero.
 Interval median_ratio(std::span<const double> numerator, std::span<const double> denominator, uint64_t seed,
                       int resamples = 2000);
 

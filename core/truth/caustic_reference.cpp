@@ -6,6 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace hybray::truth {
 namespace {
@@ -37,11 +41,19 @@ void add_to(Image2D<vec3>& sum, const FixedPointImage& image, double factor) {
 
 }  // namespace
 
-// What one pass adds to.
+// What passes add to: illumination over all of them, mixed caustics one at a time, as their scale depends on
+// the pass's points.
 struct CausticReference::Images {
   FixedPointImage illumination, mixed, mixed_wide;
-  VisibilityPoints wide;
 };
+
+std::string describe(const CausticReferenceSettings& s) {
+  return fmt::format(
+      "estimator {} paths {} map {} events {} mixed {} passes {} radius {} camera paths {} lights {} mode {} "
+      "seed {}",
+      kEstimatorVersion, s.paths, s.map_resolution, s.max_events, s.mixed, s.passes, s.radius_pixels,
+      s.camera_paths, fmt::join(s.lights, ","), static_cast<int>(s.mode), s.seed);
+}
 
 CausticReference::CausticReference(const CausticScene& scene, const GBuffer& camera,
                                    const CausticReferenceSettings& settings)
@@ -64,7 +76,7 @@ CausticReference::CausticReference(const CausticScene& scene, const GBuffer& cam
   if (scene.optics.any_interface) camera_medium_ = medium_at(scene.tracer, scene.optics, camera.view.eye());
 }
 
-void CausticReference::trace_pass(uint32_t batch, int pass, const VisibilityPoints* points, Images& images,
+void CausticReference::trace_pass(uint32_t batch, int pass, const BackwardMap* seen, Images& images,
                                   CausticReferenceBatch& result) const {
   const Scene& scene = scene_.tracer.scene();
   for (size_t m = 0; m < maps_.maps.size(); ++m) {
@@ -85,10 +97,7 @@ void CausticReference::trace_pass(uint32_t batch, int pass, const VisibilityPoin
       result.paths += count;
       result.counts.add(splat(list.photons, camera_, scene_.optics, Visibility::shadow, scene_.tracer,
                               images.illumination));
-      if (!points) continue;
-      add_mixed_caustics(PhotonMapKind::backward, scene, scene_.optics, list.photons, *points, images.mixed);
-      add_mixed_caustics(PhotonMapKind::backward, scene, scene_.optics, list.photons, images.wide,
-                         images.mixed_wide);
+      if (seen) seen->add(list.photons, images.mixed, &images.mixed_wide);
     }
   }
 }
@@ -109,10 +118,11 @@ CausticReferenceBatch CausticReference::batch(uint32_t batch) const {
   if (!(flux > 0.0)) return result;
 
   const double factor = 1.0 / settings_.passes;
+  Images images;
+  images.illumination = FixedPointImage(w, h, largest_radiance(4.0 * flux * settings_.passes, camera_));
   for (int pass = 0; pass < settings_.passes; ++pass) {
-    Images images;
-    images.illumination = FixedPointImage(w, h, largest_radiance(4.0 * flux, camera_));
     VisibilityPoints points;
+    std::optional<BackwardMap> seen;
     if (mixed_) {
       CameraPathOptions options;
       options.walk.max_events = settings_.max_events;
@@ -123,23 +133,23 @@ CausticReferenceBatch CausticReference::batch(uint32_t batch) const {
       options.jittered = true;
       points = trace_visibility_points(scene_.tracer, scene_.optics, camera_, camera_medium_, options);
       result.rays += points.counts.rays;
-      images.wide = points;
-      for (VisibilityPoint& p : images.wide.points) p.radius *= std::numbers::sqrt2_v<float>;
       if (!points.points.empty()) {
         const double largest = largest_radiance(4.0 * flux, points);
         images.mixed = FixedPointImage(w, h, largest);
         images.mixed_wide = FixedPointImage(w, h, largest);
+        seen.emplace(scene_.tracer.scene(), scene_.optics, points, std::numbers::sqrt2_v<float>);
       }
     }
-    trace_pass(batch, pass, points.points.empty() ? nullptr : &points, images, result);
-    result.overflows +=
-        images.illumination.overflows() + images.mixed.overflows() + images.mixed_wide.overflows();
-    add_to(result.illumination, images.illumination, factor);
+    trace_pass(batch, pass, seen ? &*seen : nullptr, images, result);
+    result.overflows += images.mixed.overflows() + images.mixed_wide.overflows();
     if (mixed_) {
       add_to(result.mixed, images.mixed, factor);
       add_to(result.mixed_wide, images.mixed_wide, factor);
+      images.mixed = images.mixed_wide = {};
     }
   }
+  result.overflows += images.illumination.overflows();
+  result.illumination = images.illumination.image(factor);
   return result;
 }
 

@@ -11,9 +11,14 @@
 #include "core/caustics/caustic_pass.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace hybray::truth {
+
+// Of the numbers in a batch, which caches outlive the program. To be raised with every change that moves a
+// bit of them, in whatever file it is made: sampling, optics, deposit. A test pins the numbers.
+constexpr int kEstimatorVersion = 1;
 
 struct CausticReferenceSettings {
   double paths = 4e6;            // of one batch, over all lights; >= 1
@@ -27,6 +32,10 @@ struct CausticReferenceSettings {
   TraceMode mode = TraceMode::packet16_coherent;
   uint64_t seed = 1;
 };
+
+// All settings and kEstimatorVersion as one line of text: equal texts give equal batches of the same scene,
+// tracer and view.
+std::string describe(const CausticReferenceSettings& settings);
 
 struct CausticReferenceBatch {
   Image2D<vec3> illumination;  // W/(sr m^2); width x height of the view
@@ -52,7 +61,7 @@ class CausticReference {
 
  private:
   struct Images;
-  void trace_pass(uint32_t batch, int pass, const caustics::VisibilityPoints* points, Images& images,
+  void trace_pass(uint32_t batch, int pass, const caustics::BackwardMap* seen, Images& images,
                   CausticReferenceBatch& result) const;
 
   const caustics::CausticScene& scene_;

@@ -44,8 +44,7 @@ std::string values(const Wanted& w, std::span<const std::string> experiments) {
   if (w.folders) calls += " $(compgen -d -- \"$word\")";
   if (w.scenes)
     calls += " $(compgen -W \"$(\"$program\" scene list 2>/dev/null | cut -d' ' -f1)\" -- \"$word\")";
-  if (w.experiments)
-    calls += fmt::format(" $(compgen -W \"{}\" -- \"$word\")", fmt::join(experiments, " "));
+  if (w.experiments) calls += fmt::format(" $(compgen -W \"{}\" -- \"$word\")", fmt::join(experiments, " "));
   return calls;
 }
 

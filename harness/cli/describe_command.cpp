@@ -2,6 +2,7 @@
 #include "harness/cli/commands.h"
 #include "harness/config/parameter_rules.h"
 #include "harness/config/schema.h"
+#include "harness/gate/gate_schema.h"
 
 #include <algorithm>
 
@@ -36,6 +37,23 @@ const char* label(Better better) {
   return "";
 }
 
+// How `hybray check` holds the column against accepted tables.
+std::string comparison_words(const Column& column) {
+  switch (comparison_of(column)) {
+    case Comparison::identity:
+      return "row";
+    case Comparison::none:
+      return "";
+    case Comparison::value:
+      break;
+  }
+  const auto [absolute, relative] = column.tolerance;
+  std::string words;
+  if (absolute > 0) words += fmt::format("+-{}", absolute);
+  if (relative > 0) words += fmt::format("{}+-{} of it", words.empty() ? "" : " ", relative);
+  return words.empty() ? "exact" : words;
+}
+
 using Cells = std::vector<std::string>;
 
 std::vector<Cells> parameter_table(const Experiment& experiment) {
@@ -49,11 +67,11 @@ std::vector<Cells> parameter_table(const Experiment& experiment) {
 }
 
 std::vector<Cells> column_table(const Experiment& experiment) {
-  std::vector<Cells> table{{"column", "unit", "kind", "better", "meaning"}};
+  std::vector<Cells> table{{"column", "unit", "kind", "better", "accepted", "meaning"}};
   table.push_back(
-      {"id", "", "key", "", "Id of the point: a hash of its parameters, the seed and the scene."});
+      {"id", "", "key", "", "", "Id of the point: a hash of its parameters, the seed and the scene."});
   for (const Column& c : experiment.columns)
-    table.push_back({c.name, c.unit, label(c.kind), label(c.better), c.text});
+    table.push_back({c.name, c.unit, label(c.kind), label(c.better), comparison_words(c), c.text});
   return table;
 }
 
@@ -89,9 +107,21 @@ void print_markdown(const std::vector<Cells>& table) {
 }  // namespace
 
 int describe_command(const Environment& environment, const DescribeOptions& options) {
+  if (options.format == DescribeFormat::gate_schema) {
+    if (!options.experiment.empty()) throw InputError("--gate-schema", "it is of all experiments; name none");
+    fmt::print("{}", gate_file_schema_text(environment.experiments));
+    return kOk;
+  }
   if (options.experiment.empty()) {
     if (options.format == DescribeFormat::schema) throw InputError("--schema", "name the experiment");
     for (const Experiment& e : environment.experiments) fmt::print("{}  {}\n", e.name, e.text);
+    return kOk;
+  }
+  if (options.experiment == "suite") {
+    if (options.format == DescribeFormat::schema)
+      fmt::print("{}", suite_schema_text());
+    else
+      fmt::print("suite\nConfigs that are run together, each with changes of its own; see --schema.\n");
     return kOk;
   }
   std::vector<std::string> known;

@@ -23,7 +23,8 @@ namespace fs = std::filesystem;
 enum class Finding { good, note, missing };
 
 // One line of the report, and below it the command that mends what it found.
-void say(Finding finding, const std::string& subject, const std::string& text, const std::string& remedy = {}) {
+void say(Finding finding, const std::string& subject, const std::string& text,
+         const std::string& remedy = {}) {
   constexpr std::array<const char*, 3> kMarks{"ok", "note", "missing"};
   fmt::print("{:<8} {:<14} {}\n", kMarks[static_cast<size_t>(finding)], subject, text);
   if (!remedy.empty()) fmt::print("{:<8} {:<14} -> {}\n", "", "", remedy);
@@ -122,10 +123,11 @@ bool report_scenes(const ScenePaths& paths) {
 }
 
 void report_python() {
-  constexpr const char* kModules[] = {"numpy", "pandas", "matplotlib", "jinja2"};
+  constexpr const char* kModules[] = {"matplotlib", "jinja2", "PIL"};
   std::vector<std::string> missing;
   if (access("/usr/bin/python3", X_OK) != 0) {
-    say(Finding::missing, "python", "/usr/bin/python3 is not there: no figures, no report", "scripts/setup.sh");
+    say(Finding::missing, "python", "/usr/bin/python3 is not there: no figures, no report",
+        "scripts/setup.sh");
     return;
   }
   for (const char* module : kModules) {

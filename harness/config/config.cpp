@@ -3,9 +3,11 @@
 #include "core/base/check.h"
 #include "core/base/error.h"
 #include "harness/config/config_check.h"
-#include "harness/config/json_source.h"
 #include "harness/config/json_value.h"
 #include "harness/config/parameter_rules.h"
+#include "harness/config/range.h"
+
+#include <algorithm>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -15,80 +17,153 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The setting of a parameter in "parameters" or "sweep", all of its values checked before.
-Setting setting_from(const JsonSource& source, const std::string& pointer, const Parameter& parameter,
-                     const Json& json) {
+// Everything that the functions below read is checked already (config_check.h).
+
+Given given_at(const JsonSource& source, const std::string& pointer, const Parameter& parameter,
+               const Json& json) {
+  Value value = scalar_value(json);
+  HYBRAY_CHECK(accept(parameter, value));
+  return {&parameter, value, source.place(pointer)};
+}
+
+// An object of parameters with one value each.
+GivenSet set_from(const JsonSource& source, const std::string& pointer, const Json& object,
+                  const Experiment& experiment) {
+  GivenSet set;
+  for (const auto& [name, value] : object.items())
+    set.push_back(given_at(source, child_pointer(pointer, name), *find_parameter(experiment, name), value));
+  return set;
+}
+
+// A list or a range of "sweep".
+Setting swept_from(const JsonSource& source, const std::string& pointer, const Parameter& parameter,
+                   const Json& json) {
   Setting setting{&parameter, {}, {}};
-  const auto add = [&](const std::string& place, const Json& scalar) {
-    Value value = scalar_value(scalar);
-    HYBRAY_CHECK(accept(parameter, value));
-    setting.values.push_back(value);
-    setting.places.push_back(source.place(place));
-  };
-  if (!json.is_array()) add(pointer, json);
-  for (size_t i = 0; json.is_array() && i < json.size(); ++i) add(child_pointer(pointer, i), json[i]);
+  if (json.is_object()) {
+    std::vector<RangeProblem> problems;
+    setting.values = range_values(parameter, json, problems);
+    HYBRAY_CHECK(problems.empty());
+    setting.places.assign(setting.values.size(), source.place(pointer));
+  }
+  for (size_t i = 0; json.is_array() && i < json.size(); ++i) {
+    const Given given = given_at(source, child_pointer(pointer, i), parameter, json[i]);
+    setting.values.push_back(given.value);
+    setting.places.push_back(given.place);
+  }
   return setting;
 }
 
-std::vector<Setting> settings_from(const JsonSource& source, const std::string& part,
-                                   const Experiment& experiment) {
-  std::vector<Setting> settings;
-  const auto object = source.root().find(part);
-  if (object == source.root().end()) return settings;
-  for (const auto& [name, value] : object->items()) {
-    const std::string pointer = child_pointer("/" + part, name);
-    settings.push_back(setting_from(source, pointer, *find_parameter(experiment, name), value));
-  }
-  return settings;
+void erase_given(GivenSet& set, const Parameter* parameter) {
+  std::erase_if(set, [&](const Given& given) { return given.parameter == parameter; });
 }
 
-Setting* find_setting(std::vector<Setting>& settings, const std::string& parameter) {
-  for (Setting& setting : settings) {
-    if (setting.parameter->name == parameter) return &setting;
-  }
-  return nullptr;
+// Whether two sets give the same values to the same parameters, in whatever order.
+bool equal(const GivenSet& a, const GivenSet& b) {
+  return a.size() == b.size() && std::all_of(a.begin(), a.end(), [&](const Given& given) {
+           const Given* other = find_given(b, given.parameter);
+           return other && other->value == given.value;
+         });
 }
 
-void assign(Config& config, std::vector<Setting>& given, const std::string& assignment) {
-  const std::string place = "--set " + assignment;
-  const auto [key, text] = split_assignment(assignment, place);
-  if (key == "seed") {
+// Takes the parameter out of the listed points; of those that are then equal one stays.
+void erase_from_points(Config& config, const Parameter* parameter) {
+  std::vector<GivenSet> kept;
+  for (GivenSet& point : config.points) {
+    if (find_given(point, parameter)) config.merge_equal_points = true;
+    erase_given(point, parameter);
+    if (std::none_of(kept.begin(), kept.end(), [&](const GivenSet& k) { return equal(k, point); }))
+      kept.push_back(std::move(point));
+  }
+  config.points = std::move(kept);
+}
+
+void assign(Config& config, GivenSet& parameters, const Assignment& assignment) {
+  const std::string& place = assignment.place;
+  if (assignment.key == "seed") {
     const Parameter seed{"seed", ParameterType::integer, "", {}, 0.0, 9007199254740991.0, {}, ""};
-    config.seed = std::get<int64_t>(value_from_text(seed, text, place));
+    config.seed = std::get<int64_t>(value_from_text(seed, assignment.text, place));
     return;
   }
-  const Parameter* parameter = find_parameter(*config.experiment, key);
-  if (!parameter) throw InputError(place, unknown_parameter(*config.experiment, key));
-  const Setting setting{parameter, {value_from_text(*parameter, text, place)}, {place}};
-  std::erase_if(config.sweep, [&](const Setting& s) { return s.parameter == parameter; });
-  if (Setting* old = find_setting(given, key))
-    *old = setting;
+  const Parameter* parameter = find_parameter(*config.experiment, assignment.key);
+  if (!parameter) throw InputError(place, unknown_parameter(*config.experiment, assignment.key));
+  const std::vector<Value> values = values_of(assignment, *parameter);
+  for (const Value& value : values) {
+    const std::string star = star_problem(*parameter, value, values.size());
+    if (!star.empty()) throw InputError(place, star);
+  }
+
+  erase_from_points(config, parameter);
+  for (auto& [scene, set] : config.scene_overrides) erase_given(set, parameter);
+  erase_given(parameters, parameter);
+  const auto swept = std::find_if(config.sweep.begin(), config.sweep.end(),
+                                  [&](const Setting& s) { return s.parameter == parameter; });
+  const bool was_swept = swept != config.sweep.end();
+  if (values.size() == 1) {
+    if (was_swept) config.sweep.erase(swept);
+    parameters.push_back({parameter, values.front(), place});
+    return;
+  }
+  Setting setting{parameter, values, std::vector<std::string>(values.size(), place)};
+  if (was_swept)
+    *swept = std::move(setting);
   else
-    given.push_back(setting);
+    config.sweep.push_back(std::move(setting));
+}
+
+// The scenes of points that name none themselves: those of the sweep, or the fixed one.
+std::vector<Given> base_scenes(const Config& config) {
+  std::vector<Given> scenes;
+  for (const auto* settings : {&config.sweep, &config.fixed}) {
+    for (const Setting& s : *settings) {
+      if (s.parameter->type != ParameterType::scene) continue;
+      for (size_t i = 0; i < s.values.size(); ++i) scenes.push_back({s.parameter, s.values[i], s.places[i]});
+    }
+  }
+  return scenes;
+}
+
+// Whether each point gets the parameter from the list of points or from its scene's override.
+bool given_elsewhere(const Config& config, const Parameter* parameter) {
+  const Parameter* scene_parameter = parameter_of_type(*config.experiment, ParameterType::scene);
+  const auto override_gives = [&](const Given& scene) {
+    const auto found = config.scene_overrides.find(std::get<std::string>(scene.value));
+    return found != config.scene_overrides.end() && find_given(found->second, parameter);
+  };
+  const std::vector<Given> base = base_scenes(config);
+  const bool bases_give = !base.empty() && std::all_of(base.begin(), base.end(), override_gives);
+  if (config.points.empty()) return bases_give;
+  return std::all_of(config.points.begin(), config.points.end(), [&](const GivenSet& point) {
+    const Given* own = scene_parameter ? find_given(point, scene_parameter) : nullptr;
+    return find_given(point, parameter) || (own ? override_gives(*own) : bases_give);
+  });
 }
 
 // Every parameter that is not swept, in declared order: as given, else its default.
-std::vector<Setting> complete(Config& config, std::vector<Setting>& given,
-                              const std::string& document_place) {
-  std::vector<Setting> fixed;
-  std::vector<Problem> missing;
+void complete(Config& config, const GivenSet& parameters, const std::string& document_place) {
+  std::vector<const Parameter*> without;
   for (const Parameter& parameter : config.experiment->parameters) {
-    if (find_setting(config.sweep, parameter.name)) continue;
-    if (const Setting* setting = find_setting(given, parameter.name)) {
-      fixed.push_back(*setting);
+    if (std::any_of(config.sweep.begin(), config.sweep.end(),
+                    [&](const Setting& s) { return s.parameter == &parameter; }))
+      continue;
+    if (const Given* given = find_given(parameters, &parameter)) {
+      config.fixed.push_back({&parameter, {given->value}, {given->place}});
     } else if (!std::holds_alternative<std::monostate>(parameter.default_value)) {
-      fixed.push_back({&parameter,
-                       {parameter.default_value},
-                       {fmt::format("{} (default of \"{}\")", config.file.string(), parameter.name)}});
+      config.fixed.push_back({&parameter,
+                              {parameter.default_value},
+                              {fmt::format("{} (default of \"{}\")", config.file.string(), parameter.name)}});
     } else {
-      missing.push_back(
-          {document_place,
-           fmt::format("the parameter \"{}\" has no default: \"parameters\" or \"sweep\" must give it ({})",
-                       parameter.name, expectation(parameter))});
+      without.push_back(&parameter);
     }
   }
+  std::vector<Problem> missing;
+  for (const Parameter* parameter : without) {
+    if (given_elsewhere(config, parameter)) continue;
+    missing.push_back(
+        {document_place,
+         fmt::format("the parameter \"{}\" has no default: \"parameters\" or \"sweep\" must give it ({})",
+                     parameter->name, expectation(*parameter))});
+  }
   throw_problems(missing);
-  return fixed;
 }
 
 }  // namespace
@@ -104,16 +179,53 @@ const Setting& Config::setting(const std::string& wanted) const {
   return *found;
 }
 
-std::pair<std::string, std::string> split_assignment(const std::string& assignment,
-                                                     const std::string& place) {
-  const size_t equals = assignment.find('=');
-  if (equals == std::string::npos || equals == 0) throw InputError(place, "expected KEY=VALUE");
-  return {assignment.substr(0, equals), assignment.substr(equals + 1)};
+const Given* find_given(const GivenSet& set, const Parameter* parameter) {
+  for (const Given& given : set) {
+    if (given.parameter == parameter) return &given;
+  }
+  return nullptr;
 }
 
-Config load_config(const std::filesystem::path& file, std::span<const Experiment> experiments,
-                   std::span<const std::string> assignments) {
-  const JsonSource source = JsonSource::read(file);
+std::vector<const Parameter*> varied_parameters(const Config& config) {
+  std::vector<const Parameter*> varied;
+  const auto add = [&](const Parameter* parameter) {
+    if (std::find(varied.begin(), varied.end(), parameter) == varied.end()) varied.push_back(parameter);
+  };
+  const auto add_every_camera = [&](const Given& given) {
+    if (stands_for_every_camera(*given.parameter, given.value)) add(given.parameter);
+  };
+  for (const GivenSet& point : config.points) {
+    for (const Given& given : point) add(given.parameter);
+  }
+  for (const Setting& setting : config.sweep) add(setting.parameter);
+  for (const auto& [scene, set] : config.scene_overrides) {
+    for (const Given& given : set) add_every_camera(given);
+  }
+  for (const Setting& setting : config.fixed)
+    add_every_camera({setting.parameter, setting.values.front(), ""});
+  return varied;
+}
+
+std::vector<Given> scenes_of(const Config& config) {
+  const std::vector<Given> base = base_scenes(config);
+  if (config.points.empty()) return base;
+  const Parameter* scene = parameter_of_type(*config.experiment, ParameterType::scene);
+  std::vector<Given> scenes;
+  const auto add = [&](const Given& given) {
+    if (std::none_of(scenes.begin(), scenes.end(), [&](const Given& g) { return g.value == given.value; }))
+      scenes.push_back(given);
+  };
+  for (const GivenSet& point : config.points) {
+    if (const Given* own = scene ? find_given(point, scene) : nullptr)
+      add(*own);
+    else
+      std::for_each(base.begin(), base.end(), add);
+  }
+  return scenes;
+}
+
+Config load_config(const JsonSource& source, const std::filesystem::path& file,
+                   std::span<const Experiment> experiments, std::span<const Assignment> assignments) {
   Config config;
   config.file = file;
   config.name = file.stem().string();
@@ -125,11 +237,32 @@ Config load_config(const std::filesystem::path& file, std::span<const Experiment
   config.text = root.value("text", "");
   config.seed = root.value("seed", int64_t{1});
   config.optional_scenes = root.value("optional_scenes", std::vector<std::string>{});
-  config.sweep = settings_from(source, "sweep", *config.experiment);
-  std::vector<Setting> given = settings_from(source, "parameters", *config.experiment);
-  for (const std::string& assignment : assignments) assign(config, given, assignment);
-  config.fixed = complete(config, given, source.place(""));
+  const Json none = Json::object();
+  const Json& sweep = root.contains("sweep") ? root["sweep"] : none;
+  for (const auto& [name, values] : sweep.items()) {
+    config.sweep.push_back(
+        swept_from(source, child_pointer("/sweep", name), *find_parameter(*config.experiment, name), values));
+  }
+  const Json& points = root.contains("points") ? root["points"] : none;
+  for (size_t i = 0; i < points.size(); ++i) {
+    config.points.push_back(set_from(source, child_pointer("/points", i), points[i], *config.experiment));
+  }
+  const Json& scenes = root.contains("scenes") ? root["scenes"] : none;
+  for (const auto& [scene, object] : scenes.items()) {
+    config.scene_overrides[scene] =
+        set_from(source, child_pointer("/scenes", scene), object, *config.experiment);
+  }
+  GivenSet parameters;
+  if (root.contains("parameters"))
+    parameters = set_from(source, "/parameters", root["parameters"], *config.experiment);
+  for (const Assignment& assignment : assignments) assign(config, parameters, assignment);
+  complete(config, parameters, source.place(""));
   return config;
+}
+
+Config load_config(const std::filesystem::path& file, std::span<const Experiment> experiments,
+                   std::span<const Assignment> assignments) {
+  return load_config(JsonSource::read(file), file, experiments, assignments);
 }
 
 }  // namespace hybray

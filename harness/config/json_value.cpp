@@ -13,6 +13,12 @@ Value scalar_value(const nlohmann::ordered_json& json) {
   return {};
 }
 
+std::string found_text(const nlohmann::ordered_json& json) {
+  constexpr size_t kLongest = 60;
+  const std::string text = json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
+}
+
 nlohmann::ordered_json to_json(const Value& value) {
   return std::visit(
       [](const auto& v) {

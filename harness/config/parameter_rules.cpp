@@ -76,6 +76,7 @@ bool accept(const Parameter& p, Value& value) {
   if (p.type == ParameterType::integer || p.type == ParameterType::number) {
     const auto* integer = std::get_if<int64_t>(&value);
     if (p.type == ParameterType::number && integer) value = static_cast<double>(*integer);
+    if (value == Value(0.0)) value = 0.0;  // -0 is the same number, so it may not make another point
     const auto* number = std::get_if<double>(&value);
     if (p.type == ParameterType::integer) return integer && in_range(p, static_cast<double>(*integer));
     return number && in_range(p, *number);
@@ -110,9 +111,25 @@ Value value_from_text(const Parameter& p, const std::string& text, const std::st
   throw InputError(place, rejection(p, json_text(value), value));
 }
 
+bool stands_for_every_camera(const Parameter& p, const Value& value) {
+  return p.type == ParameterType::camera && value == Value("*");
+}
+
+std::string star_problem(const Parameter& p, const Value& value, size_t count) {
+  if (count == 1 || !stands_for_every_camera(p, value)) return "";
+  return "\"*\" stands for every camera of the scene, so it must be the only value here";
+}
+
 const Parameter* find_parameter(const Experiment& experiment, const std::string& name) {
   for (const Parameter& p : experiment.parameters) {
     if (p.name == name) return &p;
+  }
+  return nullptr;
+}
+
+const Parameter* parameter_of_type(const Experiment& experiment, ParameterType type) {
+  for (const Parameter& p : experiment.parameters) {
+    if (p.type == type) return &p;
   }
   return nullptr;
 }

@@ -24,8 +24,17 @@ std::string rejection(const Parameter& parameter, const std::string& found, cons
 // InputError with `place` where the parameter does not accept it.
 Value value_from_text(const Parameter& parameter, const std::string& text, const std::string& place);
 
+// Whether `value` is the "*" that stands for each camera of a scene.
+bool stands_for_every_camera(const Parameter& parameter, const Value& value);
+
+// What is wrong with `value` as one of `count` values, that is with "*" among several; empty: nothing.
+std::string star_problem(const Parameter& parameter, const Value& value, size_t count);
+
 // The experiment's parameter of that name, or nullptr.
 const Parameter* find_parameter(const Experiment& experiment, const std::string& name);
+
+// Its first parameter of that type, or nullptr.
+const Parameter* parameter_of_type(const Experiment& experiment, ParameterType type);
 
 // `unknown parameter "x"; did you mean "y"?`
 std::string unknown_parameter(const Experiment& experiment, const std::string& name);

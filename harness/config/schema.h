@@ -1,5 +1,5 @@
-// The JSON Schema (draft 7) of an experiment's configs, made from its declaration, and the check of a
-// document against it.
+// The JSON Schemas (draft 7) of configs, each made from its experiment's declaration, and of suites; and the
+// check of a document against one.
 #pragma once
 
 #include "harness/experiments/experiment.h"
@@ -13,8 +13,11 @@ namespace hybray {
 
 nlohmann::ordered_json config_schema(const Experiment& experiment);
 
-// As it stands in configs/schema/NAME.schema.json.
+nlohmann::ordered_json suite_schema();
+
+// As they stand in configs/schema/NAME.schema.json and configs/schema/suite.schema.json.
 std::string config_schema_text(const Experiment& experiment);
+std::string suite_schema_text();
 
 struct SchemaViolation {
   std::string pointer;  // JSON pointer of the value that the schema rejects

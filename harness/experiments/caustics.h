@@ -3,10 +3,12 @@
 #pragma once
 
 #include "core/caustics/caustic_pass.h"
+#include "core/metrics/hdr_flip.h"
 #include "core/metrics/image_batches.h"
 #include "core/metrics/image_error.h"
 #include "harness/experiments/experiment.h"
 
+#include <optional>
 #include <vector>
 
 namespace hybray {
@@ -19,7 +21,8 @@ std::vector<Parameter> parameters();
 std::vector<Column> columns();
 Row run(const Point& point, Workspace& workspace);
 double memory_bytes(const Point& point);
-double cost_seconds(const Point& point);
+double cost_seconds(const Point& point, const SceneFacts& scene);
+std::vector<SharedCost> shared_costs(const Point& point, const SceneFacts& scene);
 
 // Everything that the stages of one point share.
 struct Setup {
@@ -40,7 +43,10 @@ Setup make_setup(const Point& point, Workspace& workspace);
 struct Reference {
   std::vector<Image2D<vec3>> batches;  // illumination + mixed
   metrics::ReferenceImage image;       // their mean; its variance holds the bias of photon mapping as well
-  double bias_relmse = 0.0;            // that bias alone, as a part of the reference's own relMSE
+  bool lit = false;                    // any pixel: otherwise the two errors are 0
+  std::optional<metrics::FlipExposures> exposures;  // at which displays show it; none: it is black
+  double relmse = 0.0;                              // the reference's own, bias included
+  double bias_relmse = 0.0;                         // the part of it that is that bias
   double landed = 0.0, missed_by_map = 0.0;  // flux on pixels, W; the part that no map would have emitted
   uint64_t rays = 0;
 };
@@ -64,9 +70,11 @@ void add_times(Row& row, const Setup& setup, const caustics::MapSet& maps, int r
 // The same of a point without caustics.
 void add_main_view_time(Row& row, const Setup& setup, int repeats, uint64_t seed);
 
-// Pictures below the run's folder: without caustics, with them, caustics alone, and the reference.
+// Pictures below the run's folder: without caustics, with them, caustics alone, the reference, and where
+// HDR-FLIP sees the caustics differ from it. `caustics` and `flip` may be empty, `reference` null.
 void write_pictures(const Point& point, const Workspace& workspace, const Setup& setup,
-                    const Image2D<vec3>& caustics, const Image2D<vec3>* reference);
+                    const Image2D<vec3>& caustics, const Image2D<vec3>* reference,
+                    const Image2D<float>& flip);
 
 }  // namespace caustics_parts
 }  // namespace hybray

@@ -1,30 +1,15 @@
 // What `caustics` can be asked and what it answers. Exact definitions of the metrics: docs/metrics.md.
 #include "harness/experiments/caustics.h"
 #include "harness/experiments/columns.h"
+#include "harness/experiments/parameters.h"
 #include "harness/experiments/resolution.h"
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace hybray {
 namespace caustics_parts {
 namespace {
-
-using enum ParameterType;
-
-Parameter number_of(const char* name, const char* unit, double standard, double least, double most,
-                    const char* text) {
-  return {name, number, unit, standard, least, most, {}, text};
-}
-Parameter integer_of(const char* name, const char* unit, int64_t standard, double least, double most,
-                     const char* text) {
-  return {name, integer, unit, standard, least, most, {}, text};
-}
-Parameter choice_of(const char* name, const char* standard, std::vector<std::string> choices,
-                    const char* text) {
-  return {name, choice, "", std::string(standard), {}, {}, std::move(choices), text};
-}
 
 // A metric and its 95 % interval.
 void add_interval(std::vector<Column>& c, const std::string& name, Better better, const std::string& text) {
@@ -35,70 +20,69 @@ void add_interval(std::vector<Column>& c, const std::string& name, Better better
       {name + "_high", "1", ColumnKind::metric, Better::none, "upper end of the 95 % interval of " + name});
 }
 
+double megapixels_of(const Point& point) {
+  const auto size = *parse_resolution(point.text("resolution"));
+  return 1e-6 * size.width * size.height;
+}
+
+// Which lights a camera sees is not known here: half of them, where all of one kind are used.
+double lights_in_use(const Point& point, const SceneFacts& scene) {
+  const auto all = static_cast<double>(scene.lights);
+  const auto asked = [&](const char* parameter) {
+    const auto count = static_cast<double>(point.integer(parameter));
+    return count < 0.0 ? 0.5 * all : count;
+  };
+  return std::min(all, asked("lights_visible") + asked("lights_invisible"));
+}
+
 }  // namespace
 
 std::vector<Parameter> parameters() {
-  const auto none = std::monostate{};
+  using namespace parameter;
   return {
-      {"scene", scene, "", none, {}, {}, {}, "Scene by name (hybray scene list)."},
-      {"camera",
-       camera,
-       "",
-       std::string("*"),
-       {},
-       {},
-       {},
-       "Camera of the scene by name; \"*\" stands for each of them."},
-      {"resolution",
-       resolution,
-       "px",
-       std::string("1280x720"),
-       1,
-       16384,
-       {},
-       "Width and height of the main view."},
-      number_of("near", "m", 0.05, 1e-9, 1e9, "Distance of the near plane."),
-      {"caustics", boolean, "", true, {}, {}, {}, "false: the main view alone, without any caustic pass."},
-      integer_of("map_resolution", "texels", 512, 1, 16384,
-                 "Texels along one side of a light's map (of each cube face)."),
-      number_of("rays_per_texel", "", 1.0, 1e-4, 1e6,
-                "Light paths for each active texel of the maps on average; with emission: uniform, for each "
-                "texel of a full map."),
-      integer_of("mirror_depth", "", 3, 1, 64,
-                 "Greatest number of specular events along a path, of light and camera alike."),
-      integer_of("lights_visible", "", -1, -1, 1e6,
-                 "Lights used of those that the camera sees, first ones first; -1: all."),
-      integer_of("lights_invisible", "", -1, -1, 1e6,
-                 "Lights used of those that the camera does not see; -1: all."),
-      choice_of("emission", "map", {"map", "uniform"},
-                "Light paths through the maps' active texels, or everywhere."),
-      choice_of("first_surface", "stored", {"stored", "traced"},
-                "First surface of a path: as the map stores it, or by one ray more."),
-      choice_of("visibility", "depth", {"depth", "shadow"},
-                "Whether the camera sees a deposit: by its depth buffer, or by a shadow ray."),
-      choice_of("mixed", "backward", {"none", "backward", "forward"},
-                "Caustics behind specular surfaces: by backward or forward photon maps, or left out."),
-      number_of("gather_radius", "px", 2.0, 0.01, 1000.0,
-                "Radius of the integration spheres, in pixels at their distance along the camera's path."),
-      integer_of("camera_paths", "", 1, 1, 1024, "Camera paths of a pixel that sees a specular surface."),
-      number_of("roulette_threshold", "", 0.25, 0.0, 1.0,
-                "Share of its initial weight below which a path plays Russian roulette; 0: never."),
-      choice_of("filter", "none", {"none", "wavelet"}, "Edge-avoiding wavelet filter of the caustics."),
-      integer_of("frames", "", 8, 2, 1024, "Independent frames, over which errors are averaged."),
-      number_of("reference_paths", "", 2e6, 0, 1e12,
-                "Light paths of one batch of the reference; 0: no reference."),
-      integer_of("reference_batches", "", 8, 2, 1024, "Independent batches of the reference."),
-      number_of("reference_radius", "px", 1.5, 0.01, 1000.0,
-                "Radius of the reference's integration spheres in its first pass."),
-      integer_of("repeats", "", 7, 1, 1000, "Timed rounds after one that is not counted."),
-      {"picture",
-       boolean,
-       "",
-       false,
-       {},
-       {},
-       {},
-       "Write pictures: without caustics, with them, caustics alone, reference."},
+      scene(),
+      camera(),
+      resolution("1280x720"),
+      near_plane(0.05),
+      flag("caustics", true, "false: the main view alone, without any caustic pass."),
+      integer("map_resolution", "texels", 512, 1, 16384,
+              "Texels along one side of a light's map (of each cube face)."),
+      number("rays_per_texel", "", 1.0, 1e-4, 1e6,
+             "Light paths for each active texel of the maps on average; with emission: uniform, for each "
+             "texel of a full map."),
+      integer("mirror_depth", "", 3, 1, 64,
+              "Greatest number of specular events along a path, of light and camera alike."),
+      integer("lights_visible", "", -1, -1, 1e6,
+              "Lights used of those that the camera sees, first ones first; -1: all."),
+      integer("lights_invisible", "", -1, -1, 1e6,
+              "Lights used of those that the camera does not see; -1: all."),
+      choice("emission", "map", {"map", "uniform"},
+             "Light paths through the maps' active texels, or everywhere."),
+      choice("first_surface", "stored", {"stored", "traced"},
+             "First surface of a path: as the map stores it, or by one ray more."),
+      choice("visibility", "depth", {"depth", "shadow"},
+             "Whether the camera sees a deposit: by its depth buffer, or by a shadow ray."),
+      choice("mixed", "backward", {"none", "backward", "forward"},
+             "Caustics behind specular surfaces: by backward or forward photon maps, or left out."),
+      number("gather_radius", "px", 2.0, 0.01, 1000.0,
+             "Radius of the integration spheres, in pixels at their distance along the camera's path."),
+      integer("camera_paths", "", 1, 1, 1024, "Camera paths of a pixel that sees a specular surface."),
+      number("roulette_threshold", "", 0.25, 0.0, 1.0,
+             "Share of its initial weight below which a path plays Russian roulette; 0: never."),
+      choice("filter", "none", {"none", "wavelet"}, "Edge-avoiding wavelet filter of the caustics."),
+      integer("frames", "", 8, 2, 1024, "Independent frames, over which errors are averaged."),
+      number("reference_paths", "", 2e6, 0, 1e12,
+             "Light paths of one batch of the reference; 0: no reference."),
+      integer("reference_batches", "", 8, 2, 1024, "Independent batches of the reference."),
+      number(
+          "reference_relmse_target", "", 0.0, 0.0, 1e12,
+          "Own relMSE at which the reference is good enough with fewer batches than reference_batches; 0: it "
+          "always has all of them."),
+      number("reference_radius", "px", 1.5, 0.01, 1000.0,
+             "Radius of the reference's integration spheres in its first pass."),
+      repeats(),
+      flag("picture", false,
+           "Write pictures: without caustics, with them, caustics alone, reference, error map of HDR-FLIP."),
   };
 }
 
@@ -134,12 +118,24 @@ std::vector<Column> columns() {
   c.push_back({"reference_bias_relmse", "1", ColumnKind::metric, none,
                "part of it that is the bias of photon mapping"});
   c.push_back(
-      {"at_floor", "", ColumnKind::key, none, "whether relmse is below three times the reference's own"});
+      finding("at_floor", "whether relmse is below three times the reference's own", Comparison::value));
   c.push_back({"rmse", "W/(sr m^2)", ColumnKind::metric, lower,
                "root of the mean squared error of one frame, mean over the frames"});
+  c.push_back({"smape", "1", ColumnKind::metric, lower,
+               "mean of |x - r| / (x + r) of one frame, 0 where both are black; mean over the frames"});
   c.push_back({"median_relative_error", "1", ColumnKind::metric, lower,
                "median over lit pixels of |x - r| / r, mean over the frames"});
+  c.push_back({"psnr", "dB", ColumnKind::metric, higher,
+               "peak signal-to-noise ratio on a display at the middle exposure, mean over the frames"});
+  c.push_back({"ssim", "1", ColumnKind::metric, higher,
+               "structural similarity on a display at the middle exposure, mean over the frames"});
+  c.push_back({"flip", "1", ColumnKind::metric, lower, "mean of HDR-FLIP's error map of the first frame"});
+  c.push_back({"flip_exposure_start", "stops", ColumnKind::metric, none,
+               "lowest exposure of HDR-FLIP, fixed by the reference"});
+  c.push_back({"flip_exposure_stop", "stops", ColumnKind::metric, none,
+               "highest exposure of HDR-FLIP, fixed by the reference"});
   add_interval(c, "energy_ratio", none, "sum of the image / sum of the reference");
+  c.push_back({"reference_batches", "1", ColumnKind::count, none, "independent batches of the reference"});
   c.push_back({"reference_rays", "1", ColumnKind::count, none, "rays of the reference"});
   c.push_back({"closed_form_error_fraction", "1", ColumnKind::metric, lower,
                "sum of |flux - exact flux| / sum of exact flux over the regions of the scene's closed form"});
@@ -192,30 +188,64 @@ std::vector<Column> columns() {
   add_ratio(c, "main_view_ratio", "(main view + caustic pass) / main view", lower);
   c.push_back({"rays_per_second", "1/s", ColumnKind::time, higher, "rays of light paths / emit_trace_ms"});
   c.push_back({"efficiency", "1/s", ColumnKind::time, higher, "1 / (relmse * total seconds)"});
-  c.push_back(counted("threads", "threads in use"));
-  c.push_back(counted("repeats", "timed rounds"));
+  add_circumstances(c);
   return c;
 }
 
 double memory_bytes(const Point& point) {
   const auto size = *parse_resolution(point.text("resolution"));
   const double pixels = static_cast<double>(size.width) * size.height;
-  // Buffers, accumulators and images of a frame; batches of the reference; maps, of which a light's are alive
-  // at once; photons of a pass up to its limit.
+  // Buffers, accumulators and images of a frame; the planes of HDR-FLIP; batches of the reference; maps, of
+  // which a light's are alive at once; photons of a pass up to its limit.
   const double texels = std::pow(static_cast<double>(point.integer("map_resolution")), 2.0);
   const double batches =
       point.number("reference_paths") > 0.0 ? static_cast<double>(point.integer("reference_batches")) : 0.0;
   const double paths = std::min(caustics::kMostPathsOfPass, 6.0 * texels * point.number("rays_per_texel"));
-  return 1.0e9 + pixels * (300.0 + 36.0 * batches) + 6.0 * 24.0 * texels + 100.0 * paths;
+  return 1.0e9 + pixels * (300.0 + (batches > 0.0 ? 150.0 : 0.0) + 36.0 * batches) + 6.0 * 24.0 * texels +
+         100.0 * paths;
 }
 
-double cost_seconds(const Point& point) {
-  const double frames = static_cast<double>(point.integer("frames") + 2 * point.integer("repeats"));
-  const double texels = std::pow(static_cast<double>(point.integer("map_resolution")), 2.0);
-  // On two cores about a microsecond a path; a tenth of a map is active in the scenes here.
-  const double paths = 0.1 * texels * point.number("rays_per_texel");
-  return 1e-6 * (frames * paths +
-                 point.number("reference_paths") * static_cast<double>(point.integer("reference_batches")));
+// Costs were measured as processor time on two cores; the sum over a config is good to a factor of two, a
+// single point is not: how many pixels need camera paths, and how far light paths go, depends on the scene.
+double cost_seconds(const Point& point, const SceneFacts& scene) {
+  const double megapixels = megapixels_of(point);
+  const double rounds = static_cast<double>(point.integer("repeats")) + 1.0;
+  const double main_view = 0.03 * megapixels;
+  const double pictures = point.boolean("picture") ? 0.5 * megapixels : 0.0;
+  if (!point.boolean("caustics")) return main_view * (1.0 + rounds) + pictures;
+
+  const double full_map = 6.0 * std::pow(static_cast<double>(point.integer("map_resolution")), 2.0);
+  const double lights = lights_in_use(point, scene);
+  const double active =
+      full_map * scene.specular_share * lights / std::max(1.0, static_cast<double>(scene.lights));
+  const double maps = 0.15e-6 * active;
+  const double paths =
+      point.number("rays_per_texel") * (point.text("emission") == "uniform" ? full_map * lights : active);
+  const double filter = point.text("filter") == "none" ? 0.0 : 0.3 * megapixels;
+  const bool mixed = point.text("mixed") != "none";
+  const double frame = (mixed ? 0.2e-6 : 0.08e-6) * paths + (mixed ? 0.07 : 0.03) * megapixels + filter;
+  const bool compared = point.number("reference_paths") > 0.0;
+  const double errors = compared ? 0.15 * megapixels : 0.0;  // SSIM most of all
+  const double flip = compared ? 1.3 * megapixels : 0.0;     // of the first frame, at about ten exposures
+  return main_view + maps + static_cast<double>(point.integer("frames")) * (frame + errors) +
+         rounds * (3.0 * (frame + maps) + 2.0 * main_view) + flip + pictures;
+}
+
+// The scene, and the reference of a view and its lights.
+std::vector<SharedCost> shared_costs(const Point& point, const SceneFacts& scene) {
+  const std::string& name = point.text("scene");
+  std::vector<SharedCost> costs{{"scene " + name, 0.1 + 1.2e-6 * static_cast<double>(scene.triangles)}};
+  const double paths = point.number("reference_paths");
+  if (paths > 0.0 && point.boolean("caustics")) {
+    std::string key = "reference " + name;
+    for (const char* parameter : {"camera", "resolution", "near", "lights_visible", "lights_invisible",
+                                  "reference_paths", "reference_batches", "reference_radius"})
+      key += " " + to_text(point.parameters.at(parameter));
+    key += point.text("mixed") == "none" ? " direct" : " mixed";
+    const auto batches = static_cast<double>(point.integer("reference_batches"));
+    costs.push_back({key, batches * (0.5e-6 * paths + 0.45 * megapixels_of(point))});
+  }
+  return costs;
 }
 
 }  // namespace caustics_parts
@@ -228,7 +258,8 @@ const Experiment& caustics_experiment() {
                                      caustics_parts::columns(),
                                      caustics_parts::run,
                                      caustics_parts::memory_bytes,
-                                     caustics_parts::cost_seconds};
+                                     caustics_parts::cost_seconds,
+                                     caustics_parts::shared_costs};
   return experiment;
 }
 

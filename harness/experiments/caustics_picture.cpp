@@ -1,9 +1,10 @@
 // Pictures of `caustics`: the deferred image without and with them (caustics paper, Figure 6), the caustics
-// alone, and the reference, all at one exposure.
+// alone, and the reference, all at one exposure; and HDR-FLIP's error map.
 #include "core/base/develop.h"
 #include "core/base/image_io.h"
 #include "core/base/parallel.h"
 #include "core/caustics/light_source.h"
+#include "core/metrics/magma.h"
 #include "harness/experiments/caustics.h"
 #include "harness/experiments/workspace.h"
 
@@ -84,7 +85,8 @@ Image2D<vec3> deferred_image(const Setup& setup) {
 }  // namespace
 
 void write_pictures(const Point& point, const Workspace& workspace, const Setup& setup,
-                    const Image2D<vec3>& caustics, const Image2D<vec3>* reference) {
+                    const Image2D<vec3>& caustics, const Image2D<vec3>* reference,
+                    const Image2D<float>& flip) {
   const std::filesystem::path folder = workspace.settings().output / "pictures";
   std::filesystem::create_directories(folder);
   const std::string stem =
@@ -102,6 +104,8 @@ void write_pictures(const Point& point, const Workspace& workspace, const Setup&
     write("caustics", caustics);
   }
   if (reference) write("reference", *reference);
+  if (!flip.empty())
+    write_png(folder / (stem + "_flip.png"), flip.width(), flip.height(), metrics::magma(flip));
 }
 
 }  // namespace hybray::caustics_parts

@@ -4,6 +4,7 @@
 #include "core/metrics/image_error.h"
 #include "harness/experiments/caustics.h"
 #include "harness/experiments/caustics_closed_form.h"
+#include "harness/experiments/caustics_display_error.h"
 #include "harness/experiments/cells.h"
 #include "harness/experiments/workspace.h"
 
@@ -103,10 +104,6 @@ void put_interval(Row& row, const std::string& name, const metrics::Interval& in
   row[name + "_high"] = interval.high;
 }
 
-bool is_black(const Image2D<vec3>& image) {
-  return std::all_of(image.begin(), image.end(), [](const vec3& v) { return v == vec3(0.0f); });
-}
-
 }  // namespace
 
 Row run(const Point& point, Workspace& workspace) {
@@ -117,7 +114,7 @@ Row run(const Point& point, Workspace& workspace) {
   add_keys(row, point, setup);
   const bool picture = point.boolean("picture");
   if (!point.boolean("caustics")) {
-    if (picture) write_pictures(point, workspace, setup, {}, nullptr);
+    if (picture) write_pictures(point, workspace, setup, {}, nullptr, {});
     if (timing) add_main_view_time(row, setup, repeats, workspace.settings().seed);
     return row;
   }
@@ -129,25 +126,32 @@ Row run(const Point& point, Workspace& workspace) {
   const Reference* truth = nullptr;
   if (point.number("reference_paths") > 0.0) {
     truth = &reference(point, workspace, setup);
+    row["reference_batches"] = static_cast<int64_t>(truth->batches.size());
     row["reference_rays"] = static_cast<int64_t>(truth->rays);
     if (truth->landed > 0.0) row["reference_missed_by_map_fraction"] = truth->missed_by_map / truth->landed;
-    if (is_black(truth->image.mean)) truth = nullptr;  // no caustic in sight: nothing is relative to it
+    if (!truth->exposures) truth = nullptr;  // no caustic in sight: nothing is relative to it
   }
   std::optional<metrics::ErrorBootstrap> errors;
-  if (truth) errors.emplace(truth->batches);
+  std::optional<DisplayErrors> display;
+  if (truth) {
+    errors.emplace(truth->batches);
+    display.emplace(truth->image.mean, *truth->exposures);
+  }
   ClosedFormTally closed_form(setup.scene, setup.pass.walk.max_events);
 
   FrameSums sums;
   Image2D<vec3> first;
   const int64_t frames = point.integer("frames");
-  double rmse = 0.0, median_error = 0.0;
+  double rmse = 0.0, smape = 0.0, median_error = 0.0;
   for (int64_t f = 0; f < frames; ++f) {
     if (!frame) frame = make_frame(setup, maps, static_cast<uint32_t>(f));
     if (errors) {
       errors->add(frame->image);
       const metrics::ImageError error = metrics::image_error(frame->image, truth->image);
       rmse += error.rmse / static_cast<double>(frames);
+      smape += error.smape / static_cast<double>(frames);
       median_error += error.median_relative_error / static_cast<double>(frames);
+      display->add(frame->image);
     }
     closed_form.add(frame->paths.list.photons);
     sums.add(*frame);
@@ -165,13 +169,17 @@ Row run(const Point& point, Workspace& workspace) {
     put_interval(row, "relmse", e.relmse);
     put_interval(row, "energy_ratio", e.energy_ratio);
     row["rmse"] = rmse;
+    row["smape"] = smape;
     row["median_relative_error"] = median_error;
     row["relmse_debiased"] = e.relmse.value - own;
     row["reference_relmse"] = own;
     row["reference_bias_relmse"] = truth->bias_relmse;
     row["at_floor"] = metrics::at_floor(e.relmse.value, own);
+    display->report(row);
   }
-  if (picture) write_pictures(point, workspace, setup, first, truth ? &truth->image.mean : nullptr);
+  if (picture)
+    write_pictures(point, workspace, setup, first, truth ? &truth->image.mean : nullptr,
+                   display ? display->flip() : Image2D<float>());
   if (timing) add_times(row, setup, maps, repeats, workspace.settings().seed);
   return row;
 }

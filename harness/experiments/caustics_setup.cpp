@@ -76,7 +76,8 @@ Setup make_setup(const Point& point, Workspace& workspace) {
   const View view(find_camera(scene, camera), settings, scene.bounds);
   const bool filter = point.text("filter") == "wavelet";
   unsigned bits = kDepth | kDepthDerivatives | kShadingNormal | kPrimitive;
-  if (filter) bits |= kGeometricNormal | kMaterial;
+  if (filter && caustic_scene.optics.any_specular)
+    bits |= kGeometricNormal | kMaterial;  // the filter's guides
 
   PassSettings pass = pass_settings(point, workspace.settings().seed);
   std::vector<uint32_t> visible, invisible;

@@ -11,8 +11,18 @@ inline Column key(const char* name, const char* text, const char* unit = "") {
 inline Column fraction(const char* name, Better better, const char* text) {
   return {name, "1", ColumnKind::metric, better, text};
 }
+// A text or flag that a run measures: it does not say which point a row is of.
+inline Column finding(const char* name, const char* text, Comparison comparison) {
+  return {name, "", ColumnKind::key, Better::none, text, comparison};
+}
 inline Column counted(const char* name, const char* text, const char* unit = "") {
   return {name, unit, ColumnKind::count, Better::none, text};
+}
+
+// `threads` and `repeats`, as the command line and the config set them.
+inline void add_circumstances(std::vector<Column>& columns) {
+  columns.push_back({"threads", "", ColumnKind::count, Better::none, "threads in use", Comparison::none});
+  columns.push_back({"repeats", "", ColumnKind::count, Better::none, "timed rounds", Comparison::none});
 }
 
 // A time and, beside it, the spread of its repeats.

@@ -39,13 +39,34 @@ struct Parameter {
 enum class ColumnKind { key, metric, time, count };
 enum class Better { none, lower, higher };
 
+// What holding a table against an accepted one does with a column.
+enum class Comparison {
+  identity,  // rows with the same values belong together
+  value,     // must be as accepted, within the tolerance
+  none,      // depends on the machine or the command line
+};
+
+// How far a value may be from the accepted one: absolute + relative * the larger magnitude of the two.
+struct Tolerance {
+  double absolute = 0.0, relative = 0.0;
+};
+
 struct Column {
   std::string name;
   std::string unit;
   ColumnKind kind;
   Better better;
   std::string text;
+  std::optional<Comparison> comparison = {};  // empty: by kind, see below
+  Tolerance tolerance = {};
 };
+
+// As declared; else keys identify, metrics and counts are compared, times are not.
+inline Comparison comparison_of(const Column& column) {
+  if (column.comparison) return *column.comparison;
+  if (column.kind == ColumnKind::key) return Comparison::identity;
+  return column.kind == ColumnKind::time ? Comparison::none : Comparison::value;
+}
 
 // One frozen point of a sweep: every parameter of the experiment has a value.
 struct Point {
@@ -66,6 +87,22 @@ using Row = std::map<std::string, Value>;
 // What a run lends to the experiments: cached scenes, the folder for pictures, and settings of the whole run.
 class Workspace;
 
+// What a sweep must know about a scene, and what costs depend on besides the parameters of a point.
+struct SceneFacts {
+  uint64_t content_hash = 0;
+  uint64_t triangles = 0;
+  std::vector<std::string> cameras;
+  uint64_t lights = 0;
+  double specular_share = 0.0;  // about how much of all directions specular surfaces take up, seen from a
+                                // light; sum over the lights
+};
+
+// Work that a point does once for itself and for every later point with the same key.
+struct SharedCost {
+  std::string key;
+  double seconds = 0.0;  // on two cores
+};
+
 struct Experiment {
   std::string name;
   std::string text;
@@ -76,7 +113,9 @@ struct Experiment {
   // fails before any work.
   std::function<double(const Point&)> memory_bytes;
   // Rough cost of a point, seconds on two cores, for `hybray points` and the progress line.
-  std::function<double(const Point&)> cost_seconds;
+  std::function<double(const Point&, const SceneFacts&)> cost_seconds;
+  // What comes on top for the first of the points that share it: scenes, references.
+  std::function<std::vector<SharedCost>(const Point&, const SceneFacts&)> shared_costs = nullptr;
 };
 
 // Every experiment of this build.

@@ -14,7 +14,8 @@ std::vector<Parameter> parameters();
 std::vector<Column> columns();
 Row run(const Point& point, Workspace& workspace);
 double memory_bytes(const Point& point);
-double cost_seconds(const Point& point);
+double cost_seconds(const Point& point, const SceneFacts& scene);
+std::vector<SharedCost> shared_costs(const Point& point, const SceneFacts& scene);
 
 }  // namespace ssrm_parts
 }  // namespace hybray

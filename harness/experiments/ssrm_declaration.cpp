@@ -1,79 +1,55 @@
 // What `ssrm` can be asked and what it answers. Exact definitions of the metrics: docs/metrics.md.
 #include "harness/experiments/columns.h"
+#include "harness/experiments/parameters.h"
 #include "harness/experiments/resolution.h"
 #include "harness/experiments/ssrm.h"
 
+#include <cmath>
+#include <utility>
+
 namespace hybray {
 namespace ssrm_parts {
+namespace {
+
+// Rays within rounding of an edge change sides with the general tracer's instruction set: at most 20 in
+// 100,000.
+constexpr double kMovedRays = 2e-4;
+
+Column share_of_rays(const char* name, Better better, const char* text) {
+  return {name, "1", ColumnKind::metric, better, text, {}, {kMovedRays, 0.0}};
+}
+
+// What follows from how many rays there are or which of them are resolved.
+Column follows_rays(Column column) {
+  column.tolerance = {2.0, kMovedRays};
+  return column;
+}
+
+}  // namespace
+
 std::vector<Parameter> parameters() {
-  using enum ParameterType;
-  const auto none = std::monostate{};
+  using namespace parameter;
   return {
-      {"scene", scene, "", none, {}, {}, {}, "Scene by name (hybray scene list)."},
-      {"camera",
-       camera,
-       "",
-       std::string("*"),
-       {},
-       {},
-       {},
-       "Camera of the scene by name; \"*\" stands for each of them."},
-      {"resolution",
-       resolution,
-       "px",
-       std::string("1920x1080"),
-       1,
-       16384,
-       {},
-       "Width and height of the main view."},
-      {"near", number, "m", 0.1, 1e-9, 1e9, {}, "Distance of the near plane."},
-      {"far", number, "m", 0.0, 0.0, 1e12, {}, "Distance of the far plane; 0: just beyond the scene."},
-      {"depth_convention",
-       choice,
-       "",
-       std::string("reversed"),
-       {},
-       {},
-       {"standard", "reversed"},
-       "Device depth that grows with distance (standard) or falls (reversed)."},
-      {"derivatives",
-       choice,
-       "",
-       std::string("plane"),
-       {},
-       {},
-       {"plane", "difference"},
-       "Depth derivatives from the triangle's plane, or by differences inside 2x2 quads as graphics hardware "
-       "makes them."},
-      {"marcher", choice, "", std::string("paper"), {}, {}, {"paper"}, "Screen-space marcher."},
-      {"mirror_depth", integer, "", int64_t{1}, 1, 1, {}, "Number of mirror reflections along a path."},
-      {"step_budget",
-       integer,
-       "",
-       int64_t{0},
-       0,
-       1e9,
-       {},
-       "Depth samples that one ray may read; 0: no limit."},
-      {"footprint_factor", number, "", 1.0, 1e-3, 1e3, {}, "k of the tolerance that makes a HIT right."},
-      {"level0_every",
-       integer,
-       "",
-       int64_t{1},
-       0,
-       1e6,
-       {},
-       "March every so-manieth ray also with the exhaustive double-precision marcher; 0: none."},
-      {"repeats", integer, "", int64_t{7}, 1, 1000, {}, "Timed rounds after one that is not counted."},
-      {"picture",
-       boolean,
-       "",
-       false,
-       {},
-       {},
-       {},
-       "Write the verdict picture: grey = resolved, blue = unknown, light blue = miss, red = false hit, "
-       "black = background."},
+      scene(),
+      camera(),
+      resolution("1920x1080"),
+      near_plane(0.1),
+      number("far", "m", 0.0, 0.0, 1e12, "Distance of the far plane; 0: just beyond the scene."),
+      choice("depth_convention", "reversed", {"standard", "reversed"},
+             "Device depth that grows with distance (standard) or falls (reversed)."),
+      choice("derivatives", "plane", {"plane", "difference"},
+             "Depth derivatives from the triangle's plane, or by differences inside 2x2 quads as graphics "
+             "hardware makes them."),
+      choice("marcher", "paper", {"paper"}, "Screen-space marcher."),
+      integer("mirror_depth", "", 1, 1, 1, "Number of mirror reflections along a path."),
+      integer("step_budget", "", 0, 0, 1e9, "Depth samples that one ray may read; 0: no limit."),
+      number("footprint_factor", "", 1.0, 1e-3, 1e3, "k of the tolerance that makes a HIT right."),
+      integer("level0_every", "", 1, 0, 1e6,
+              "March every so-manieth ray also with the exhaustive double-precision marcher; 0: none."),
+      repeats(),
+      flag("picture", false,
+           "Write the verdict picture: grey = resolved, blue = unknown, light blue = miss, red = false hit, "
+           "black = background."),
   };
 }
 
@@ -87,40 +63,47 @@ std::vector<Column> columns() {
       key("height", "height of the main view", "px"),
       key("marcher", "screen-space marcher"),
       key("near_m", "near plane", "m"),
-      key("far_m", "far plane in use", "m"),
+      {"far_m", "m", ColumnKind::key, none, "far plane in use", Comparison::value, {0.0, 1e-12}},
       key("depth_convention", "depth convention"),
       key("derivatives", "origin of the depth derivatives"),
       key("mirror_depth", "mirror reflections along a path"),
       key("step_budget", "depth samples a ray may read; 0 = no limit"),
       key("footprint_factor", "k of the tolerance"),
       counted("triangles", "triangles of the scene"),
-      counted("rays", "reflection rays, one a covered pixel"),
-      fraction("alpha", higher, "HIT / rays"),
-      fraction("miss_fraction", none, "MISS / rays"),
-      fraction("false_miss_fraction", lower, "share of MISS whose ray truly hits something"),
-      fraction("resolved_fraction", higher, "rays not sent to the general tracer / rays"),
-      fraction("unknown_offscreen_fraction", none,
-               "rays that left the view volume at the side or the far plane / rays"),
-      fraction("unknown_behind_fraction", none,
-               "rays already behind the failing pixel's plane where they enter it / rays"),
-      fraction("unknown_viewer_fraction", none, "rays that left through the near plane / rays"),
-      fraction("unknown_correction_fraction", none, "rays that failed the correction otherwise / rays"),
-      fraction("unknown_budget_fraction", none, "rays whose step budget was exhausted / rays"),
-      fraction("precision", higher, "right HITs / HITs"),
-      fraction("precision_loose", higher, "HITs within max(1 % of t*, 1.5 footprints) / HITs"),
-      fraction("recall", higher, "right HITs / rays whose true hit the main view sees"),
-      fraction("alpha_max", none, "rays whose true hit the main view sees / rays"),
-      fraction("false_hit_fraction", lower, "false HITs / HITs; phantom + early + through"),
-      fraction("phantom_fraction", lower, "HITs of rays that truly hit nothing / HITs"),
-      fraction("early_fraction", lower, "HITs claimed before the true hit / HITs"),
-      fraction("through_fraction", lower, "HITs claimed beyond the true hit / HITs"),
-      fraction("level0_disagreement_fraction", lower,
-               "rays labelled differently by the exhaustive double-precision marcher / rays compared"),
+      follows_rays(counted("rays", "reflection rays, one a covered pixel")),
+      share_of_rays("alpha", higher, "HIT / rays"),
+      share_of_rays("miss_fraction", none, "MISS / rays"),
+      share_of_rays("false_miss_fraction", lower, "share of MISS whose ray truly hits something"),
+      share_of_rays("resolved_fraction", higher, "rays not sent to the general tracer / rays"),
+      share_of_rays("unknown_offscreen_fraction", none,
+                    "rays that left the view volume at the side or the far plane / rays"),
+      share_of_rays("unknown_behind_fraction", none,
+                    "rays already behind the failing pixel's plane where they enter it / rays"),
+      share_of_rays("unknown_viewer_fraction", none, "rays that left through the near plane / rays"),
+      share_of_rays("unknown_correction_fraction", none, "rays that failed the correction otherwise / rays"),
+      share_of_rays("unknown_budget_fraction", none, "rays whose step budget was exhausted / rays"),
+      share_of_rays("precision", higher, "right HITs / HITs"),
+      share_of_rays("precision_loose", higher, "HITs within max(1 % of t*, 1.5 footprints) / HITs"),
+      share_of_rays("recall", higher, "right HITs / rays whose true hit the main view sees"),
+      share_of_rays("alpha_max", none, "rays whose true hit the main view sees / rays"),
+      share_of_rays("false_hit_fraction", lower, "false HITs / HITs; phantom + early + through"),
+      share_of_rays("phantom_fraction", lower, "HITs of rays that truly hit nothing / HITs"),
+      share_of_rays("early_fraction", lower, "HITs claimed before the true hit / HITs"),
+      share_of_rays("through_fraction", lower, "HITs claimed beyond the true hit / HITs"),
+      share_of_rays("level0_disagreement_fraction", lower,
+                    "rays labelled differently by the exhaustive double-precision marcher / rays compared"),
       {"level0_margin_ulp", "ulp", ColumnKind::metric, lower,
-       "widest decision margin of a ray labelled differently, in float ulps"},
-      {"steps_per_ray", "1", ColumnKind::metric, lower, "depth samples read / rays"},
-      counted("geometric_mirror_rays",
-              "rays mirrored about the geometric normal instead of the shading normal"),
+       "widest decision margin of a ray labelled differently, in float ulps", Comparison::none},
+      // Moved rays that read ten times the mean.
+      {"steps_per_ray",
+       "1",
+       ColumnKind::metric,
+       lower,
+       "depth samples read / rays",
+       {},
+       {0.0, 10 * kMovedRays}},
+      follows_rays(counted("geometric_mirror_rays",
+                           "rays mirrored about the geometric normal instead of the shading normal")),
   };
   add_time(c, "gbuffer", "depth, derivatives and normals of the main view");
   add_time(c, "pyramid", "depth pyramid");
@@ -129,8 +112,10 @@ std::vector<Column> columns() {
   add_time(c, "compaction", "list of the unresolved rays");
   add_time(c, "t_ss", "SSRM on all rays");
   add_time(c, "t_hw", "general tracer on all rays in its fastest mode");
-  c.push_back(key("hw_mode", "fastest mode of the general tracer for all rays, by measurement"));
-  c.push_back(key("hw_mode_unresolved", "fastest mode for the unresolved rays, by measurement"));
+  c.push_back(finding("hw_mode", "fastest mode of the general tracer for all rays, by measurement",
+                      Comparison::none));
+  c.push_back(finding("hw_mode_unresolved", "fastest mode for the unresolved rays, by measurement",
+                      Comparison::none));
   add_time(c, "t_hw_single", "general tracer on all rays, one ray at a time");
   add_time(c, "t_unresolved", "general tracer on the unresolved rays in their fastest mode");
   add_time(c, "t_hybrid", "measured hybrid: pyramid, march, compaction, trace, write-back");
@@ -147,30 +132,44 @@ std::vector<Column> columns() {
             "cost of an unresolved ray relative to the mean ray; the paper assumes 1");
   c.push_back({"break_even_alpha", "1", ColumnKind::time, lower,
                "T_SS / T_HW: alpha from which the paper's formula gains"});
-  c.push_back(counted("paths_skipped", "background pixels, for which no ray was made"));
+  c.push_back(follows_rays(counted("paths_skipped", "background pixels, for which no ray was made")));
   c.push_back(counted("buffers_skipped", "kinds of geometry buffer that this point did not need"));
-  c.push_back(
-      {"buffer_bytes", "bytes", ColumnKind::metric, lower, "geometry buffers, pyramid and ray lists"});
-  c.push_back(counted("threads", "threads in use"));
-  c.push_back(counted("repeats", "timed rounds"));
+  c.push_back(follows_rays(
+      {"buffer_bytes", "bytes", ColumnKind::metric, lower, "geometry buffers, pyramid and ray lists"}));
+  add_circumstances(c);
   return c;
 }
 
 double memory_bytes(const Point& point) {
-  // Bytes a pixel, all arrays of a run together: geometry buffers (held, and once more while they are timed),
-  // pyramid, world and screen rays (twice as well), verdicts of two marchers, four lists of hits, indices.
-  constexpr double kPixel = 2 * 32 + 5.4 + 2 * (28 + 29) + 2 * 5 + 4 * 8 + 10;
-  constexpr double kScene = 1.0e9;  // the largest of the known scenes with both acceleration structures
+  // Bytes a pixel where it is most, while times are taken: 141 as measured, and some in reserve. Geometry
+  // buffers and rays are there twice, with four lists of hits.
+  constexpr double kPixel = 165.0;
+  constexpr double kScene =
+      0.7e9;  // the largest of the known scenes (0.64e9) with both acceleration structures
   const auto size = *parse_resolution(point.text("resolution"));
   return kScene + kPixel * size.width * size.height;
 }
 
-double cost_seconds(const Point& point) {
+// Measured as processor time on two cores; good to a factor of two for the sum over a config, while a single
+// point of it may be further off.
+double cost_seconds(const Point& point, const SceneFacts& scene) {
   const auto size = *parse_resolution(point.text("resolution"));
-  const double rounds = static_cast<double>(point.integer("repeats")) + 1.0;
-  // On two cores about 1.2 microseconds a pixel and round for all timed variants, and 3 for truth and the
-  // exhaustive marcher.
-  return 1e-6 * size.width * size.height * (1.2 * rounds + 3.0);
+  const double pixels = static_cast<double>(size.width) * size.height;
+  // A round traces all rays twice and the unresolved ones three times, for which the tracer needs the longer
+  // the deeper its tree is, and marches all of them three times.
+  const double depth = std::log2(static_cast<double>(scene.triangles) + 2.0);
+  const double round = 0.05e-6 * depth * pixels;
+  const double verdicts = 0.5e-6 * pixels;
+  const double modes = 0.04 * depth;  // finding the fastest ones takes a fixed number of rays
+  // The exhaustive marcher visits the pixels along a ray, a number that grows with the width.
+  const auto stride = static_cast<double>(point.integer("level0_every"));
+  const double level0 = stride > 0.0 ? 0.7e-9 * pixels * size.width / stride : 0.0;
+  return verdicts + level0 + modes + round * (static_cast<double>(point.integer("repeats")) + 1.0);
+}
+
+// The scene, loaded twice (once for its hash), and both of its acceleration structures.
+std::vector<SharedCost> shared_costs(const Point& point, const SceneFacts& scene) {
+  return {{"scene " + point.text("scene"), 0.1 + 1.2e-6 * static_cast<double>(scene.triangles)}};
 }
 
 }  // namespace ssrm_parts
@@ -183,7 +182,8 @@ const Experiment& ssrm_experiment() {
                                      ssrm_parts::columns(),
                                      ssrm_parts::run,
                                      ssrm_parts::memory_bytes,
-                                     ssrm_parts::cost_seconds};
+                                     ssrm_parts::cost_seconds,
+                                     ssrm_parts::shared_costs};
   return experiment;
 }
 

@@ -15,8 +15,8 @@ namespace {
 using Rgb = std::array<uint8_t, 3>;
 constexpr Rgb kUnknown{40, 70, 200}, kMiss{150, 190, 240}, kFalseHit{220, 30, 30};
 
-// Grey of a reflected surface under a light at the ray's origin: luminance times cosine, in sRGB.
-Rgb reflected_grey(const GBuffer& g, const Scene& scene, uint32_t pixel, const vec3& direction) {
+// Grey of the surface seen at a pixel under a light from `direction`: luminance times cosine, in sRGB.
+Rgb surface_grey(const GBuffer& g, const Scene& scene, uint32_t pixel, const vec3& direction) {
   const vec3 color = scene.materials[g.material[pixel]].base_color;
   const double luminance = 0.2126 * color.x + 0.7152 * color.y + 0.0722 * color.z;
   const auto x = pixel % static_cast<uint32_t>(g.view.width()),
@@ -33,7 +33,20 @@ Rgb color_of(ssrm::Verdict verdict, metrics::HitClass kind, const GBuffer& g, co
              uint32_t pixel, const vec3& direction) {
   if (verdict == ssrm::Verdict::miss) return kMiss;
   if (verdict != ssrm::Verdict::hit) return kUnknown;
-  return kind == metrics::HitClass::right ? reflected_grey(g, scene, pixel, direction) : kFalseHit;
+  return kind == metrics::HitClass::right ? surface_grey(g, scene, pixel, direction) : kFalseHit;
+}
+
+// What the main view sees under a light at the eye, in the same greys.
+std::vector<uint8_t> view_picture(const GBuffer& g, const Scene& scene) {
+  std::vector<uint8_t> rgb(3 * g.primitive.size(), 0);
+  for (uint32_t i = 0; i < g.primitive.size(); ++i) {
+    if (g.primitive[i] == kNoPrimitive) continue;
+    const uint32_t width = static_cast<uint32_t>(g.view.width()), x = i % width, y = i / width;
+    const vec3 direction(glm::normalize(g.view.ray_direction(x + 0.5, y + 0.5)));
+    const Rgb color = surface_grey(g, scene, i, direction);
+    std::copy(color.begin(), color.end(), rgb.begin() + 3 * static_cast<ptrdiff_t>(i));
+  }
+  return rgb;
 }
 
 }  // namespace
@@ -50,9 +63,10 @@ void write_verdict_picture(const Point& point, const Workspace& workspace, const
   }
   const std::filesystem::path folder = workspace.settings().output / "pictures";
   std::filesystem::create_directories(folder);
-  write_png(folder / (point.text("scene") + "_" + point.text("camera") + "_" + point.text("resolution") +
-                      "_" + point.id + ".png"),
-            width, height, rgb);
+  const std::string stem =
+      point.text("scene") + "_" + point.text("camera") + "_" + point.text("resolution") + "_" + point.id;
+  write_png(folder / (stem + ".png"), width, height, rgb);
+  write_png(folder / (stem + "_view.png"), width, height, view_picture(gbuffer, scene));
 }
 
 }  // namespace hybray

@@ -10,8 +10,9 @@
 namespace hybray {
 
 // Writes pictures/SCENE_CAMERA_WIDTHxHEIGHT_ID.png below the run's folder. Grey: right HITs, as bright as the
-// reflected surface facing the ray; red: false HITs; blue: UNKNOWN; light blue: MISS; black: background. The
-// G-buffer must hold primitives and materials.
+// reflected surface facing the ray; red: false HITs; blue: UNKNOWN; light blue: MISS; black: background.
+// Beside it ..._ID_view.png: the main view, as bright as its surfaces facing the eye. The G-buffer must hold
+// primitives and materials.
 void write_verdict_picture(const Point& point, const Workspace& workspace, const GBuffer& gbuffer,
                            const Scene& scene, const RayStream& rays, const ssrm::MarchResults& results,
                            const std::vector<metrics::HitClass>& classes);

@@ -12,16 +12,27 @@
 
 namespace hybray {
 
+class ReferenceCache;
+
+// Where the converged references of a run came from.
+struct ReferenceCounts {
+  uint64_t computed = 0;   // nothing of them was in the cache
+  uint64_t continued = 0;  // some of their batches were
+  uint64_t reused = 0;     // all
+  uint64_t batches_computed = 0, batches_reused = 0;
+};
+
 // The most recently used scene with its acceleration structures, built when first asked for and shared by the
 // points that follow.
 class Workspace {
  public:
   struct Settings {
     ScenePaths scene_paths;
-    std::filesystem::path output;  // folder of the run; pictures go below it
-    uint64_t seed = 1;             // of the whole run
-    bool timing = true;            // false: time columns stay empty, nothing is repeated
-    int threads = 0;               // 0: all
+    std::filesystem::path output;     // folder of the run; pictures go below it
+    uint64_t seed = 1;                // of the whole run
+    bool timing = true;               // false: time columns stay empty, nothing is repeated
+    int threads = 0;                  // 0: all
+    ReferenceCache* cache = nullptr;  // of converged references; none: they are made in every run
   };
 
   explicit Workspace(Settings settings);
@@ -57,6 +68,10 @@ class Workspace {
   // something shared was there already.
   uint64_t reused() const { return reused_; }
 
+  // Written by the experiments.
+  ReferenceCounts& references() { return references_; }
+  const ReferenceCounts& references() const { return references_; }
+
  private:
   const Tracer& built(std::unique_ptr<Tracer>& tracer, const std::string& scene_name, bool robust);
 
@@ -66,6 +81,7 @@ class Workspace {
   std::unique_ptr<Tracer> tracer_, robust_tracer_;
   std::map<std::string, std::shared_ptr<void>> shared_;  // by key
   uint64_t reused_ = 0;
+  ReferenceCounts references_;
 };
 
 }  // namespace hybray

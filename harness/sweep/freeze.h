@@ -14,8 +14,10 @@
 namespace hybray {
 
 struct FreezeOptions {
-  std::vector<std::string> filters;  // KEY=VALUE: points must match; of several with one key, any
+  std::vector<Assignment> filters;  // points must match; of several values for one key, any
   double memory_bytes = std::numeric_limits<double>::infinity();  // that a point may need
+  bool may_be_empty = false;                                      // whether filters may leave no point
+  std::vector<Assignment> suite_filters = {};                     // points must match these, too
 };
 
 struct SkippedScene {
@@ -30,10 +32,11 @@ struct FrozenSweep {
   std::map<std::string, SceneFacts> scenes;  // of the points, by name
 };
 
-// The product of the sweep in the order of the file (first key slowest), except that a swept scene is the
-// slowest of all; "*" cameras expanded. Throws InputError: a filter that names no parameter or matches no
-// point, a scene or camera that is not there, a point that needs more memory than options.memory_bytes.
-// Scenes are loaded only when every check that needs none has passed.
+// The points of a config: listed points slowest, then the sweep in the order of the file (first key slowest),
+// except that all points of one scene come together; "*" cameras expanded. Throws InputError: a filter that
+// names no parameter or matches no point, a scene or camera that is not there, two points that are the same,
+// more than 100,000 points, a point that needs more memory than options.memory_bytes. Scenes are loaded only
+// when every check that needs none has passed.
 FrozenSweep freeze(const Config& config, SceneCatalog& scenes, const FreezeOptions& options = {});
 
 // 16 hexadecimal digits: hash of the experiment's name, all parameters, the seed and the scene's content (0:

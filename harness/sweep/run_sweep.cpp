@@ -2,7 +2,7 @@
 
 #include "harness/table/growing_table.h"
 
-#include <chrono>
+#include <utility>
 
 namespace hybray {
 namespace {
@@ -19,32 +19,33 @@ Row run_point(const Experiment& experiment, const Point& point, Workspace& works
 
 }  // namespace
 
-RunResult run_sweep(const Config& config, const FrozenSweep& sweep, Workspace& workspace,
-                    const RunObserver& observer) {
-  const auto start = std::chrono::steady_clock::now();
-  const std::filesystem::path folder = workspace.settings().output;
-  GrowingTable table(folder, config.name, config.experiment->columns);
+RunResult run_sweep(const RunRequest& request, Workspace& workspace, const RunObserver& observer) {
+  const Experiment& experiment = *request.config.experiment;
+  RunRecord record(request, workspace.settings().output);
+  const std::vector<const Point*> to_do = record.to_do();
+  observer.run_starts(to_do, record);
   RunResult result;
-  for (size_t i = 0; i < sweep.points.size() && !result.stopped; ++i) {
-    const Point& point = sweep.points[i];
+  for (size_t i = 0; i < to_do.size(); ++i) {
+    result.stopped = observer.stop_wanted();
+    if (result.stopped) break;
+    const Point& point = *to_do[i];
     observer.point_starts(i, point);
+    std::string line;
     try {
-      table.append(point.id, run_point(*config.experiment, point, workspace));
-      ++result.done;
-      observer.point_done(i, point);
+      line = table_line(experiment.columns, point.id, run_point(experiment, point, workspace));
     } catch (const std::exception& error) {
-      ++result.failed;
+      record.failed(point, error.what());
       observer.point_failed(i, point, error.what());
+      continue;
     }
-    result.stopped = observer.stop_wanted() && i + 1 < sweep.points.size();
+    record.done(point, std::move(line));  // a row that cannot be written ends the run: so would all others
+    observer.point_done(i, point);
   }
-  if (result.done > 0) {
-    result.table = result.stopped ? table.partial_file() : table.file();
-    std::vector<std::string> ids;
-    for (const Point& point : sweep.points) ids.push_back(point.id);
-    if (!result.stopped) table.finish(ids);
-  }
-  result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  record.count_references(workspace.references());
+  result.table = record.close(result.stopped);
+  const RunState& state = record.state();
+  result.done = state.done, result.reused = state.reused, result.failed = state.failures.size();
+  result.wall_seconds = state.sessions.back().wall_time_s.value_or(0);
   return result;
 }
 
@@ -57,11 +58,7 @@ std::string point_label(const Config& config, const Point& point, bool all) {
     for (const Parameter& parameter : config.experiment->parameters) add(parameter.name);
     return label;
   }
-  for (const Setting& setting : config.sweep) add(setting.parameter->name);
-  for (const Setting& setting : config.fixed) {
-    if (setting.parameter->type == ParameterType::camera && setting.values.front() == Value("*"))
-      add(setting.parameter->name);
-  }
+  for (const Parameter* parameter : varied_parameters(config)) add(parameter->name);
   return label.empty() ? point_label(config, point, true) : label;
 }
 

@@ -1,12 +1,14 @@
 #include "harness/sweep/scene_catalog.h"
 
 #include "core/base/error.h"
+#include "harness/sweep/specular_share.h"
 
 namespace hybray {
 namespace {
 
 SceneFacts facts_of(const Scene& scene) {
-  SceneFacts facts{scene.content_hash, scene.triangle_count(), {}};
+  SceneFacts facts{
+      scene.content_hash, scene.triangle_count(), {}, scene.lights.size(), specular_share(scene)};
   for (const Camera& camera : scene.cameras) facts.cameras.push_back(camera.name);
   return facts;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/scene/scene_library.h"
+#include "harness/experiments/experiment.h"
 
 #include <cstdint>
 #include <functional>
@@ -10,12 +11,6 @@
 #include <vector>
 
 namespace hybray {
-
-struct SceneFacts {
-  uint64_t content_hash = 0;
-  uint64_t triangles = 0;
-  std::vector<std::string> cameras;
-};
 
 class SceneCatalog {
  public:

@@ -1,6 +1,8 @@
 #include "harness/table/build_info.h"
 
+#include "core/base/hash.h"
 #include "core/tracer/tracer.h"
+#include "harness/table/files.h"
 #include "hybray_build.h"  // made by CMake
 #include "hybray_git.h"    // made at every build, changed only with the commit
 
@@ -17,6 +19,7 @@ BuildInfo build_info() {
   info.version = HYBRAY_VERSION;
   info.git_commit = HYBRAY_GIT_COMMIT;
   info.git_dirty = HYBRAY_GIT_DIRTY != 0;
+  info.sources = HYBRAY_GIT_SOURCES;
   info.build_type = HYBRAY_BUILD_TYPE;
   info.compiler = HYBRAY_COMPILER;
   info.flags = HYBRAY_FLAGS;
@@ -26,11 +29,21 @@ BuildInfo build_info() {
                     {"oneTBB", HYBRAY_TBB_VERSION},
                     {"nlohmann-json", HYBRAY_JSON_VERSION},
                     {"TinyGLTF", HYBRAY_TINYGLTF_VERSION},
+                    {"Boost", HYBRAY_BOOST_VERSION},
                     {"CLI11", HYBRAY_CLI11_VERSION},
                     {"spdlog", HYBRAY_SPDLOG_VERSION},
                     {"fmt", HYBRAY_FMT_VERSION},
                     {"xxHash", HYBRAY_XXHASH_VERSION}};
   return info;
+}
+
+std::string program_identity() {
+  const BuildInfo info = build_info();
+  if (info.sources.empty()) return hex(hash_text(read_file("/proc/self/exe")));
+  std::string text =
+      fmt::format("{};{};{};{};{}", info.version, info.sources, info.build_type, info.compiler, info.flags);
+  for (const auto& [name, version] : info.libraries) text += fmt::format(";{} {}", name, version);
+  return hex(hash_text(text));
 }
 
 std::string version_line() {

@@ -4,6 +4,7 @@
 #include "harness/table/files.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -17,6 +18,7 @@ class CsvScanner {
 
   bool at_end() const { return next_ == text_.size(); }
   int line() const { return line_; }
+  bool at_line_start() const { return next_ > 0 && text_[next_ - 1] == '\n'; }
 
   std::vector<std::string> row() {
     std::vector<std::string> cells;
@@ -101,11 +103,33 @@ CsvTable parse_csv(std::string_view text, const std::string& name) {
   while (!scanner.at_end()) {
     const int line = scanner.line();
     table.rows.push_back(scanner.row());
+    table.lines.push_back(line);
     if (table.rows.back().size() != table.header.size()) {
       throw InputError(fmt::format("{}:{}", name, line),
                        fmt::format("found {} cells; expected {}, as in the header", table.rows.back().size(),
                                    table.header.size()));
     }
+  }
+  return table;
+}
+
+CsvTable parse_whole_rows(std::string_view text) {
+  const std::string name;
+  CsvScanner scanner(text, name);
+  CsvTable table;
+  try {
+    while (!scanner.at_end()) {
+      std::vector<std::string> row = scanner.row();
+      if (!scanner.at_line_start()) break;
+      if (table.header.empty()) {
+        table.header = std::move(row);
+      } else if (row.size() == table.header.size()) {
+        table.rows.push_back(std::move(row));
+      } else {
+        break;
+      }
+    }
+  } catch (const InputError&) {  // the text ends, or goes wrong, inside this row
   }
   return table;
 }

@@ -5,20 +5,26 @@
 #include "harness/table/csv.h"
 #include "harness/table/files.h"
 
-#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include <fcntl.h>
-#include <sys/file.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 namespace hybray {
 
-std::vector<std::string> row_cells(std::span<const Column> columns, const Row& row) {
+std::string table_header(std::span<const Column> columns) {
+  std::vector<std::string> names{"id"};
+  for (const Column& column : columns) names.push_back(column.name);
+  return csv_line(names);
+}
+
+std::string table_line(std::span<const Column> columns, const std::string& id, const Row& row) {
   size_t known = 0;
-  std::vector<std::string> cells;
+  std::vector<std::string> cells{id};
   for (const Column& column : columns) {
     const auto cell = row.find(column.name);
     if (cell == row.end()) {
@@ -33,60 +39,73 @@ std::vector<std::string> row_cells(std::span<const Column> columns, const Row& r
     cells.push_back(to_text(cell->second));
   }
   HYBRAY_CHECK_EQ(known, row.size());  // every cell has a column
-  return cells;
+  return csv_line(cells);
 }
 
-GrowingTable::GrowingTable(const std::filesystem::path& folder, const std::string& name,
-                           std::span<const Column> columns)
+size_t estimated_table_bytes(std::span<const Column> columns, size_t rows) {
+  constexpr size_t kCell = 20;  // a double as text, and its comma
+  return table_header(columns).size() + rows * (columns.size() + 1) * kCell;
+}
+
+GrowingTable::GrowingTable(const std::filesystem::path& folder, const std::string& name, std::string header,
+                           TableLines kept)
     : table_(folder / (name + ".csv")),
       partial_(folder / (name + ".csv.partial")),
-      columns_(columns.begin(), columns.end()) {
-  std::vector<std::string> names{"id"};
-  for (const Column& column : columns) names.push_back(column.name);
-  header_ = csv_line(names);
-
-  descriptor_.number = open(partial_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
+      header_(std::move(header)),
+      lines_(std::move(kept)) {
+  std::string start = header_;
+  for (const auto& [id, line] : lines_) start += line;
+  replace_file(partial_, start);
+  descriptor_.number = open(partial_.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
   if (descriptor_.number < 0)
-    throw InputError(partial_.string(), std::string("cannot be written: ") + strerror(errno));
-  if (flock(descriptor_.number, LOCK_EX | LOCK_NB) != 0 || ftruncate(descriptor_.number, 0) != 0) {
-    const bool locked = errno == EWOULDBLOCK;
-    const std::string reason = locked ? "another run is writing to it" : strerror(errno);
-    throw InputError(partial_.string(), "cannot be written: " + reason);
-  }
-  write_line(header_);
+    throw RuntimeError(partial_.string() + ": cannot be written: " + strerror(errno));
 }
 
 GrowingTable::Descriptor::~Descriptor() {
   if (number >= 0) close(number);
 }
 
-void GrowingTable::append(const std::string& id, const Row& row) {
-  std::vector<std::string> cells = row_cells(columns_, row);
-  cells.insert(cells.begin(), id);
-  std::string line = csv_line(cells);
-  write_line(line);
+void GrowingTable::append(const std::string& id, std::string line) {
+  const off_t before = lseek(descriptor_.number, 0, SEEK_END);
+  ssize_t written = write(descriptor_.number, line.data(), line.size());
+  // A disk that fills up takes a part; only the next write says why.
+  if (written >= 0 && static_cast<size_t>(written) < line.size()) {
+    const size_t begun = static_cast<size_t>(written);
+    const ssize_t rest = write(descriptor_.number, line.data() + begun, line.size() - begun);
+    written = rest < 0 ? rest : written + rest;
+  }
+  if (written != static_cast<ssize_t>(line.size())) {
+    const std::string reason = written < 0 ? strerror(errno) : "the disk is full";
+    if (ftruncate(descriptor_.number, before) != 0) {
+      // The torn line has no line end, and whoever resumes drops it.
+    }
+    throw RuntimeError(fmt::format("{}: cannot be written: {}; its {} rows are kept", partial_.string(),
+                                   reason, lines_.size()));
+  }
   lines_[id] = std::move(line);
+  sync_sometimes();
 }
 
-void GrowingTable::finish(std::span<const std::string> ids) {
+// On every row would cost short points more than they take themselves.
+void GrowingTable::sync_sometimes() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now - synced_ < std::chrono::seconds(1)) return;
+  if (fdatasync(descriptor_.number) != 0)
+    throw RuntimeError(partial_.string() + ": cannot be written: " + strerror(errno));
+  synced_ = now;
+}
+
+std::string GrowingTable::content(std::span<const std::string> ids) const {
   std::string content = header_;
   for (const std::string& id : ids) {
     if (const auto line = lines_.find(id); line != lines_.end()) content += line->second;
   }
-  replace_file(table_, content);
-  std::error_code ignored;  // the table is complete; a leftover partial file does no harm
-  std::filesystem::remove(partial_, ignored);
+  return content;
 }
 
-void GrowingTable::write_line(const std::string& line) {
-  const off_t before = lseek(descriptor_.number, 0, SEEK_END);
-  const ssize_t written = write(descriptor_.number, line.data(), line.size());
-  if (written == static_cast<ssize_t>(line.size())) return;
-  const std::string reason = written < 0 ? strerror(errno) : "the disk is full";
-  if (ftruncate(descriptor_.number, before) !=
-      0) { /* what follows the last line end is torn, and readers say so */
-  }
-  throw RuntimeError(partial_.string() + ": cannot be written: " + reason);
+void GrowingTable::remove_partial() {
+  std::error_code ignored;
+  std::filesystem::remove(partial_, ignored);
 }
 
 }  // namespace hybray

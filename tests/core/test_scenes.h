@@ -1,7 +1,9 @@
 // Small scenes and random numbers that several tests share.
 #pragma once
 
+#include "core/base/error.h"
 #include "core/base/hash.h"
+#include "core/scene/procedural/closed_form_scenes.h"
 #include "core/scene/scene.h"
 #include "core/scene/scene_library.h"
 
@@ -68,6 +70,13 @@ inline std::optional<double> exact_hit(const Scene& scene, uint32_t triangle, co
   if (u < -slack || v < -slack || u + v > 1.0 + slack) return std::nullopt;
   const double t = glm::dot(e2, q) / det;
   return t >= 0.0 ? std::optional<double>(t) : std::nullopt;
+}
+
+// The scene that a generator of closed_form_generators() makes.
+inline Scene closed_form_scene(const std::string& name) {
+  for (const procedural::Generator& generator : procedural::closed_form_generators())
+    if (generator.name == name) return generator.generate({});
+  throw InputError(name, "no such scene");
 }
 
 // The project's own scenes and, where they are, the external ones.

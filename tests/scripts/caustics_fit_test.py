@@ -2,7 +2,6 @@
 """Tests scripts/caustics_fit.py on tables whose cost per light is known."""
 
 import csv
-import importlib.util
 import random
 import re
 import subprocess
@@ -14,9 +13,8 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True
 SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "caustics_fit.py"
-SPECIFICATION = importlib.util.spec_from_file_location("caustics_fit", SCRIPT)
-FIT = importlib.util.module_from_spec(SPECIFICATION)
-SPECIFICATION.loader.exec_module(FIT)
+sys.path.insert(0, str(SCRIPT.parent))
+import fitting  # noqa: E402
 
 
 def table_of_lights(time: Callable[[int, int], float], noise: float, **keys: str) -> list[dict]:
@@ -117,7 +115,20 @@ class CausticsFit(unittest.TestCase):
     def test_tail_of_f_is_that_of_printed_tables(self):
         for value, d1, d2, tail in ((3.7083, 3, 10, 0.05), (4.9646, 1, 10, 0.05), (3.4928, 2, 20, 0.05),
                                     (6.5523, 3, 10, 0.01), (161.4476, 1, 1, 0.05), (4.8166, 3, 22, 0.01)):
-            self.assertAlmostEqual(FIT.f_tail(value, d1, d2), tail, delta=1e-3 * tail + 2e-5, msg=f"F({d1}, {d2})")
+            self.assertAlmostEqual(fitting.f_tail(value, d1, d2), tail, delta=1e-3 * tail + 2e-5, msg=f"F({d1}, {d2})")
+
+
+    def test_quantiles_of_t_are_those_of_printed_tables(self):
+        for freedom, quantile in ((1, 12.7062), (2, 4.3027), (4, 2.7764), (5, 2.5706), (10, 2.2281), (30, 2.0423)):
+            self.assertAlmostEqual(fitting.t_quantile_975(freedom), quantile, delta=1e-3 * quantile, msg=str(freedom))
+
+    def test_interval_of_a_mean_is_students(self):
+        # 1, 2, 3: mean 2, standard deviation 1, t(2) = 4.3027, half = 4.3027 / sqrt(3).
+        mean, low, high = fitting.mean_interval([1.0, 2.0, 3.0])
+        self.assertAlmostEqual(mean, 2.0)
+        self.assertAlmostEqual(high - mean, 2.4841, delta=2e-3)
+        self.assertAlmostEqual(mean - low, high - mean)
+        self.assertEqual(fitting.mean_interval([0.3]), (0.3, 0.3, 0.3))
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@
 #include "tests/core/test_scenes.h"
 
 #include <memory>
+#include <vector>
 
 namespace hybray::test {
 
@@ -117,6 +118,24 @@ constexpr unsigned kCausticBits = kDepth | kDepthDerivatives | kShadingNormal | 
 inline double mean_flux(const caustics::Photon& p) {
   return (static_cast<double>(p.flux.x) + static_cast<double>(p.flux.y) + static_cast<double>(p.flux.z)) /
          3.0;
+}
+
+// Photons of equal flux on an n x n grid over the square [-half, half]^2 of the floor y = 0: irradiance 1
+// W/m^2.
+inline std::vector<caustics::Photon> even_floor(int n, double half) {
+  std::vector<caustics::Photon> photons;
+  const double step = 2.0 * half / n;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      caustics::Photon p;
+      p.position = vec3(dvec3(-half + (i + 0.5) * step, 0.0, -half + (j + 0.5) * step));
+      p.normal = vec3(0.0f, 1.0f, 0.0f);
+      p.direction = vec3(0.6f, -0.8f, 0.0f);
+      p.flux = vec3(static_cast<float>(step * step));
+      p.cos_in = 0.8f;
+      photons.push_back(p);
+    }
+  return photons;
 }
 
 }  // namespace hybray::test

@@ -106,19 +106,33 @@ TEST(PhotonMaps, BothKindsAreTheSumOverAllPairs) {
   for (size_t i = 0; i < 12; ++i) EXPECT_EQ(images[0][i], images[1][i]) << "bit for bit";
 }
 
-// Photons of irradiance 1 on a grid over the floor's square [-half, half]^2.
-std::vector<Photon> even_floor(int n, double half) {
-  std::vector<Photon> photons;
-  const double step = 2.0 * half / n;
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j) {
-      Photon p;
-      p.position = vec3(dvec3(-half + (i + 0.5) * step, 0.0, -half + (j + 0.5) * step));
-      p.normal = vec3(0.0f, 1.0f, 0.0f);
-      p.flux = vec3(static_cast<float>(step * step));
-      photons.push_back(p);
-    }
-  return photons;
+TEST(PhotonMaps, ABackwardMapServesPortionsOfPhotonsAndTwoRadiiInOneSearch) {
+  const Prepared p(mixed_scene());
+  const std::vector<Photon> photons = random_photons(p.scene, 6000);
+  const VisibilityPoints visible = random_points(p.scene, 1500, 12);
+  VisibilityPoints wider = visible;
+  for (VisibilityPoint& v : wider.points) v.radius *= 1.5f;
+  FixedPointImage expected(4, 3, 1e6), expected_wide(4, 3, 1e6), image(4, 3, 1e6), wide(4, 3, 1e6);
+  const auto pairs =
+      add_mixed_caustics(PhotonMapKind::forward, p.scene, p.caustic.optics, photons, visible, expected).pairs;
+  const auto wide_pairs =
+      add_mixed_caustics(PhotonMapKind::forward, p.scene, p.caustic.optics, photons, wider, expected_wide)
+          .pairs;
+  ASSERT_GT(wide_pairs, 2 * pairs) << "spheres of 3.4 times the volume";
+
+  const BackwardMap map(p.scene, p.caustic.optics, visible, 1.5f);
+  uint64_t found = 0;
+  for (size_t first = 0; first < photons.size(); first += 2500) {
+    const size_t last = std::min(photons.size(), first + 2500);
+    const std::vector<Photon> portion(photons.begin() + static_cast<ptrdiff_t>(first),
+                                      photons.begin() + static_cast<ptrdiff_t>(last));
+    found += map.add(portion, image, &wide).pairs;
+  }
+  EXPECT_EQ(found, pairs);
+  for (size_t i = 0; i < 12; ++i) {
+    EXPECT_EQ(image.image()[i], expected.image()[i]) << "bit for bit";
+    EXPECT_EQ(wide.image()[i], expected_wide.image()[i]) << "bit for bit";
+  }
 }
 
 TEST(PhotonMaps, AnEvenlyLitFloorInAMirrorHasItsRadianceTimesTheReflectance) {

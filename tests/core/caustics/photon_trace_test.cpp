@@ -5,6 +5,7 @@
 #include "core/base/parallel.h"
 #include "core/caustics/medium_at.h"
 #include "tests/core/caustics/caustic_scenes.h"
+#include "tests/core/sampling_error.h"
 
 #include <cmath>
 #include <cstring>
@@ -68,6 +69,21 @@ TEST(PhotonTrace, EachLightHasALedgerOfItsOwnAndTheyAddUp) {
   EXPECT_NEAR(emitted, paths.list.counts.ledger.emitted, 1e-9 * emitted);
 }
 
+std::vector<Photon> flat(const PhotonBlocks& photons) {
+  std::vector<Photon> list;
+  photons.for_each([&](const Photon& photon) { list.push_back(photon); });
+  return list;
+}
+
+// Bit for bit.
+void expect_same(const std::vector<Photon>& expected, const PhotonBlocks& photons) {
+  ASSERT_EQ(expected.size(), photons.size());
+  size_t i = 0, different = 0;
+  photons.for_each(
+      [&](const Photon& photon) { different += std::memcmp(&expected[i++], &photon, sizeof(Photon)) != 0; });
+  EXPECT_EQ(different, 0u);
+}
+
 TEST(PhotonTrace, PhotonsAreTheSameBitsAtAnyNumberOfThreads) {
   const Prepared p(mixed_scene());
   const PassSettings s = settings_for(p.scene, EmissionKind::map, FirstSurface::stored, 8);
@@ -76,14 +92,8 @@ TEST(PhotonTrace, PhotonsAreTheSameBitsAtAnyNumberOfThreads) {
     const ThreadLimit limit(threads);
     const LightPaths paths = trace(p, s);
     ASSERT_GT(paths.list.photons.size(), 1000u);
-    if (first.empty()) {
-      paths.list.photons.for_each([&](const Photon& photon) { first.push_back(photon); });
-      continue;
-    }
-    ASSERT_EQ(first.size(), paths.list.photons.size());
-    size_t i = 0;
-    paths.list.photons.for_each(
-        [&](const Photon& photon) { EXPECT_EQ(std::memcmp(&first[i++], &photon, sizeof(Photon)), 0); });
+    if (first.empty()) first = flat(paths.list.photons);
+    expect_same(first, paths.list.photons);
   }
 }
 
@@ -101,19 +111,12 @@ TEST(PhotonTrace, NothingIsNegativeOrNotANumber) {
   });
 }
 
-// Mean deposited flux and its standard error over independent samples.
-struct Estimate {
-  double mean = 0.0, error = 0.0;
-};
+// Deposited flux, W, over independent samples.
 Estimate deposited(const Prepared& p, const PassSettings& s, int samples) {
   std::vector<double> values;
   for (int i = 0; i < samples; ++i)
     values.push_back(trace(p, s, static_cast<uint32_t>(i)).list.counts.ledger.deposited);
-  Estimate e;
-  for (const double v : values) e.mean += v / samples;
-  for (const double v : values) e.error += (v - e.mean) * (v - e.mean);
-  e.error = std::sqrt(e.error / (samples * (samples - 1.0)));
-  return e;
+  return estimate(values);
 }
 
 TEST(PhotonTrace, MapUniformAndMixedEmissionAgreeOnWhatArrives) {
@@ -125,8 +128,8 @@ TEST(PhotonTrace, MapUniformAndMixedEmissionAgreeOnWhatArrives) {
       deposited(p, settings_for(p.scene, EmissionKind::uniform, FirstSurface::traced, 8, 128), kSamples);
   const Estimate mixture =
       deposited(p, settings_for(p.scene, EmissionKind::mixture, FirstSurface::traced, 8, 128), kSamples);
-  // Two comparisons, each with 4.5 standard errors: false alarms about once in 10^5 runs.
-  EXPECT_LT(std::abs(uniform.mean - mixture.mean), 4.5 * std::hypot(uniform.error, mixture.error));
+  EXPECT_LT(std::abs(uniform.mean - mixture.mean),
+            error_limit(kSamples) * std::hypot(uniform.error, mixture.error));
   // The map sees a texel whole or not at all: at a silhouette half of the texels along it are wrong by half
   // on average, in both directions. The silhouettes here are some 12 m of 0.7 m wide objects: below 2 %.
   EXPECT_NEAR(map.mean / uniform.mean, 1.0, 0.02);
@@ -146,10 +149,12 @@ TEST(PhotonTrace, RouletteKeepsTheExpectation) {
   const Prepared p(std::move(scene));
   PassSettings s = settings_for(p.scene, EmissionKind::map, FirstSurface::traced, 60, 128);
   s.walk.roulette_threshold = 0.0;
-  const Estimate without = deposited(p, s, 12);
+  constexpr int kSamples = 16;
+  const Estimate without = deposited(p, s, kSamples);
   s.walk.roulette_threshold = 0.8;
-  const Estimate with = deposited(p, s, 12);
-  EXPECT_LT(std::abs(with.mean - without.mean), 4.5 * std::hypot(with.error, without.error));
+  const Estimate with = deposited(p, s, kSamples);
+  EXPECT_LT(std::abs(with.mean - without.mean),
+            error_limit(kSamples) * std::hypot(with.error, without.error));
   EXPECT_GT(without.mean, 0.0);
 }
 
@@ -161,36 +166,96 @@ TEST(PhotonTrace, FractionsOfARayPerTexelKeepTheFlux) {
   const double covered = maps.maps[0].covered_flux;
   for (const double rays : {0.1, 0.5, 1.0, 2.7}) {
     s.rays_per_texel = rays;
-    double sum = 0.0, square = 0.0;
-    constexpr int kSamples = 32;
+    std::vector<double> emitted;
     uint64_t paths = 0;
-    for (uint32_t i = 0; i < kSamples; ++i) {
+    for (uint32_t i = 0; i < 32; ++i) {
       const LightPaths traced = trace_light_paths(p.caustic, s, maps, i);
-      const double emitted = traced.list.counts.ledger.emitted;
-      sum += emitted, square += emitted * emitted;
+      emitted.push_back(traced.list.counts.ledger.emitted);
       paths += traced.list.paths;
     }
-    const double mean = sum / kSamples;
-    const double error = std::sqrt(std::max(0.0, square / kSamples - mean * mean) / (kSamples - 1.0));
+    const Estimate e = estimate(emitted);
     // Solid angles of texels of 1/64 of a quarter turn, at their centres and jittered, differ by second
     // order.
-    EXPECT_LT(std::abs(mean - covered), 4.5 * error + 1e-5 * covered) << rays;
-    EXPECT_NEAR(static_cast<double>(paths) / kSamples, rays * static_cast<double>(maps.maps[0].texels.size()),
+    EXPECT_LT(std::abs(e.mean - covered), error_limit(32, 4) * e.error + 1e-5 * covered) << rays;
+    EXPECT_NEAR(static_cast<double>(paths) / 32.0, rays * static_cast<double>(maps.maps[0].texels.size()),
                 1.0);
   }
 }
 
-TEST(PhotonTrace, DepthCutsWhatFollowsAndCountsIt) {
+TEST(PhotonTrace, AMirroredCavityCutsOffWhatItsReflectanceLeavesAtEveryDepth) {
+  // Light cannot get out of a sphere of reflectance R. What meets the wall for the (d + 1)th time is cut off
+  // with R^(d + 1) of its flux; the walls have the rest.
+  Scene scene = empty_scene();
+  constexpr float kR = 0.75f;
+  const uint32_t m = add_material(scene, mirror(vec3(kR)));
+  append_analytic(scene, analytic_sphere("cavity", m, dvec3(0.0, 1.0, 0.0), 2.0));
+  scene.lights.push_back(point_light(vec3(0.5f, 1.3f, -0.2f), 1.0f));
+  update_content_hash(scene);
+  const Prepared p(std::move(scene));
+  for (const FirstSurface first : {FirstSurface::stored, FirstSurface::traced})
+    for (const int depth : {1, 2, 3, 8, 16}) {
+      PassSettings s = settings_for(p.scene, EmissionKind::map, first, depth, 16);
+      s.walk.roulette_threshold = 0.0;
+      const FluxLedger l = trace(p, s).list.counts.ledger;
+      const double cut = std::pow(static_cast<double>(kR), depth + 1);
+      EXPECT_NEAR(l.truncated / l.emitted, cut, 1e-12) << depth;
+      EXPECT_NEAR(l.absorbed / l.emitted, 1.0 - cut, 1e-12) << depth;
+      EXPECT_EQ(l.escaped, 0.0) << depth;
+    }
+}
+
+TEST(PhotonTrace, AGreaterDepthAddsToWhatASmallerOneFoundAndTakesItFromWhatThatCutOff) {
+  // Random numbers belong to a path and its event, so that paths of all depths are the same up to the cut.
+  // Without roulette no event adds to a path's weight: what is cut off falls with depth, path by path, until
+  // nothing is left, and the other parts of the account grow.
   const Prepared p(mixed_scene());
-  double deposited = 0.0, truncated = 1e300;
-  for (const int depth : {1, 2, 3, 8, 16}) {
-    const FluxLedger l =
-        trace(p, settings_for(p.scene, EmissionKind::map, FirstSurface::stored, depth)).list.counts.ledger;
-    EXPECT_GE(l.deposited, deposited * 0.999);
-    EXPECT_LE(l.truncated, truncated);
-    deposited = l.deposited, truncated = l.truncated;
+  FluxLedger before;
+  for (const int depth : {1, 2, 3, 8, 16, 32}) {
+    PassSettings s = settings_for(p.scene, EmissionKind::map, FirstSurface::stored, depth);
+    s.walk.roulette_threshold = 0.0;
+    const FluxLedger l = trace(p, s).list.counts.ledger;
+    const double rounding = 1e-12 * l.emitted;
+    EXPECT_NEAR(l.balance, 0.0, rounding);
+    if (depth > 1) {
+      EXPECT_EQ(l.direct, before.direct);
+    }
+    EXPECT_GE(l.deposited, before.deposited - rounding);
+    EXPECT_GE(l.absorbed, before.absorbed - rounding);
+    EXPECT_GE(l.escaped, before.escaped - rounding);
+    if (depth == 1) {
+      EXPECT_GT(l.truncated, 0.0);
+    } else if (before.truncated > 0.0) {
+      EXPECT_LT(l.truncated, before.truncated) << depth;
+    } else {
+      EXPECT_EQ(l.truncated, 0.0) << depth;
+    }
+    before = l;
   }
-  EXPECT_LT(truncated, 1e-3 * deposited);
+}
+
+TEST(PhotonTrace, AListThatIsUsedAgainHoldsWhatAFreshOneWould) {
+  Scene scene = mixed_scene();
+  scene.lights.push_back(point_light(vec3(-1.0f, 2.5f, 1.0f), 4.0f));
+  const Prepared p(std::move(scene));
+  PassSettings s = settings_for(p.scene, EmissionKind::map, FirstSurface::stored, 8);
+  const MapSet maps = make_maps(p.caustic, s);
+  LightPaths used;
+  // More photons than before, fewer, none of an earlier frame's, and the first again.
+  for (const auto& [rays, sample] : {std::pair(0.5, 0u), {3.0, 1u}, {0.1, 2u}, {1e-4, 3u}, {0.5, 0u}}) {
+    s.rays_per_texel = rays;
+    trace_light_paths(p.caustic, s, maps, sample, used);
+    const LightPaths fresh = trace_light_paths(p.caustic, s, maps, sample);
+    EXPECT_EQ(used.list.paths, fresh.list.paths);
+    EXPECT_EQ(used.list.counts.rays, fresh.list.counts.rays);
+    EXPECT_EQ(used.list.counts.medium_mismatches, fresh.list.counts.medium_mismatches);
+    ASSERT_EQ(used.ledgers.size(), fresh.ledgers.size());
+    for (size_t i = 0; i < fresh.ledgers.size(); ++i) {
+      EXPECT_EQ(used.ledgers[i].emitted, fresh.ledgers[i].emitted);
+      EXPECT_EQ(used.ledgers[i].total(), fresh.ledgers[i].total());
+    }
+    EXPECT_EQ(used.list.counts.ledger.deposited, fresh.list.counts.ledger.deposited);
+    expect_same(flat(fresh.list.photons), used.list.photons);
+  }
 }
 
 TEST(PhotonTrace, ALightInsideGlassShinesOut) {

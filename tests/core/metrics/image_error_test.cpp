@@ -23,6 +23,7 @@ TEST(ImageError, OfConstantImagesIsItsClosedForm) {
   EXPECT_NEAR(error.relmse_debiased(), 0.5 / 4.0004, 1e-15);
   EXPECT_DOUBLE_EQ(error.energy_ratio, 1.5);
   EXPECT_DOUBLE_EQ(error.rmse, 1.0);
+  EXPECT_DOUBLE_EQ(error.smape, 0.2);  // 1 / (3 + 2)
   EXPECT_DOUBLE_EQ(error.lit_fraction, 1.0);
   EXPECT_DOUBLE_EQ(error.median_relative_error, 0.5);
 }
@@ -35,6 +36,7 @@ TEST(ImageError, DoesNotDependOnTheUnit) {
   for (vec3& v : scaled_r) v *= 0x1p-40f;
   const ImageError error = image_error(x, {r, {}}), scaled = image_error(scaled_x, {scaled_r, {}});
   EXPECT_DOUBLE_EQ(error.relmse, scaled.relmse);
+  EXPECT_DOUBLE_EQ(error.smape, scaled.smape);
   EXPECT_DOUBLE_EQ(error.median_relative_error, scaled.median_relative_error);
   EXPECT_DOUBLE_EQ(error.rmse * 0x1p-40, scaled.rmse);
 }
@@ -47,6 +49,18 @@ TEST(ImageError, FloorsTheDenominatorWhereTheReferenceIsBlack) {
   EXPECT_NEAR(image_error(x, {r, {}}).relmse, 0.25, 0.25 * 2 * 0x1p-24);  // 0.01f is rounded
   EXPECT_DOUBLE_EQ(image_error(x, {r, {}}).lit_fraction, 0.25);
   EXPECT_DOUBLE_EQ(image_error(x, {r, {}}).median_relative_error, 0.0);
+}
+
+TEST(ImageError, CountsWhatIsBlackInOneImageAloneAsAWholeSymmetricErrorAndInBothAsNone) {
+  // Pixels (x, r): (0, 0), (0, 1), (3, 1), (2, 0), in the red channel; nothing in the others.
+  Image2D<vec3> x(2, 2, vec3(0.0f)), r(2, 2, vec3(0.0f));
+  r(1, 0).x = r(0, 1).x = 1.0f;
+  x(0, 1).x = 3.0f;
+  x(1, 1).x = 2.0f;
+  EXPECT_DOUBLE_EQ(image_error(x, {r, {}}).smape, (1.0 + 0.5 + 1.0) / 12.0);
+  Image2D<uint8_t> mask(2, 2, 1);
+  mask(1, 1) = 0;
+  EXPECT_DOUBLE_EQ(image_error(x, {r, {}}, &mask).smape, 1.5 / 9.0);
 }
 
 TEST(ImageError, OfGaussianNoiseIsItsExpectation) {
@@ -109,6 +123,7 @@ TEST(ImageError, IsTheSameAtAnyThreadCount) {
   EXPECT_EQ(one.reference_relmse, many.reference_relmse);
   EXPECT_EQ(one.energy_ratio, many.energy_ratio);
   EXPECT_EQ(one.rmse, many.rmse);
+  EXPECT_EQ(one.smape, many.smape);
 }
 
 TEST(ImageError, RefusesWhatMustNotBeAveraged) {

@@ -21,6 +21,26 @@ TEST(Quantile, MatchesHyndmanAndFansType7) {
   EXPECT_DOUBLE_EQ(median(std::vector<double>{7}), 7.0);
 }
 
+TEST(Bootstrap, OfAMeanIsAsWideAsItsStandardError) {
+  // Percentiles of the mean of n draws of {0, 1}: binomial, sd 1 / (2 sqrt(n)); n = 400 puts the ends at 0.5
+  // -+ 1.96 x 0.025. Of 2000 resamples a 2.5 % quantile lies within some 0.06 sd; four times that, and half a
+  // step of 1/400.
+  std::vector<double> values;
+  for (int i = 0; i < 400; ++i) values.push_back(i % 2);
+  const auto mean = [](std::span<const double> v) {
+    double sum = 0.0;
+    for (const double x : v) sum += x;
+    return sum / static_cast<double>(v.size());
+  };
+  const Interval interval = bootstrap(values, mean, 3);
+  EXPECT_DOUBLE_EQ(interval.value, 0.5);
+  EXPECT_NEAR(interval.low, 0.5 - 1.96 * 0.025, 4 * 0.06 * 0.025 + 0.00125);
+  EXPECT_NEAR(interval.high, 0.5 + 1.96 * 0.025, 4 * 0.06 * 0.025 + 0.00125);
+  EXPECT_EQ(bootstrap(values, mean, 3).low, interval.low) << "the same for a seed";
+  const std::vector<double> one{7.0};
+  EXPECT_EQ(bootstrap(one, mean, 3).high, 7.0);
+}
+
 TEST(MedianRatio, TakesRatiosPairByPairSoThatCommonDriftCancels) {
   std::vector<double> a, b;
   for (double drift : {1.0, 3.0, 0.5, 7.0, 2.0}) a.push_back(3.0 * drift), b.push_back(2.0 * drift);

@@ -1,10 +1,13 @@
 // The converged reference against what it must equal.
 #include "core/truth/caustic_reference.h"
 
+#include "core/base/hash.h"
 #include "core/base/parallel.h"
 #include "tests/core/caustics/caustic_scenes.h"
 
 #include <cmath>
+#include <set>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -175,6 +178,77 @@ TEST(CausticReference, ABatchIsTheSameBitsAtAnyNumberOfThreads) {
       ASSERT_EQ(first.mixed[i], batch.mixed[i]);
     }
   }
+}
+
+uint64_t hash_of(const Image2D<vec3>& image, uint64_t seed) {
+  return hash_bytes(image.data(), image.size() * sizeof(vec3), seed);
+}
+
+CausticReferenceBatch pinned_batch(Scene scene) {
+  const Prepared p(std::move(scene));
+  const View view = make_view(p.scene, vec3(0.5f, 1.5f, 0.9f), vec3(0.1f, 0.55f, kMirrorZ), 32, 24, 40.0f);
+  const GBuffer camera = make_gbuffer(p.tracer, view, kCausticBits);
+  CausticReferenceSettings settings = reference_settings();
+  settings.paths = 30000;
+  return CausticReference(p.caustic, camera, settings).batch(5);
+}
+
+// Caches keep batches from one build of the program to the next, by the version of the estimator. Hits on
+// analytic surfaces are our own arithmetic, the same on every instruction set; Embree's triangles are not.
+TEST(CausticReference, ItsNumbersAreThoseOfItsVersion) {
+  constexpr int kPinnedVersion = 1;
+  constexpr uint64_t kPinnedHash = 0xe5b518ccca1c1a8a;
+  const char* const advice =
+      ": bump the version (truth::kEstimatorVersion), or caches will serve the old numbers; then pin the new";
+  EXPECT_EQ(truth::kEstimatorVersion, kPinnedVersion);
+
+  // A matte globe with a glass ball, a mirror ball and a lamp in it.
+  Scene globe = empty_scene();
+  globe.materials[0] = matte(vec3(0.7f, 0.7f, 0.5f));
+  const uint32_t g = add_material(globe, glass(1.5f, vec3(0.2f, 0.5f, 0.1f)));
+  const uint32_t m = add_material(globe, mirror(vec3(kReflectance)));
+  append_analytic(globe, analytic_sphere("globe", 0, dvec3(0.0, 1.0, 0.0), 4.0));
+  append_analytic(globe, analytic_sphere("ball", g, dvec3(0.0, 1.2, -1.0), 0.4));
+  append_analytic(globe, analytic_sphere("mirror", m, dvec3(-0.6, 0.4, -1.6), 0.5));
+  globe.lights.push_back(point_light(vec3(0.1f, 3.0f, -0.9f), 20.0f));
+  update_content_hash(globe);
+  const CausticReferenceBatch exact = pinned_batch(std::move(globe));
+  ASSERT_FALSE(exact.mixed.empty());
+  const uint64_t hash =
+      hash_of(exact.mixed_wide, hash_of(exact.mixed, hash_of(exact.illumination, exact.rays)));
+  EXPECT_EQ(hash, kPinnedHash) << hex(hash) << advice;
+
+  const CausticReferenceBatch triangles = pinned_batch(mirror_scene(true));
+  const double sums[] = {block_sum(triangles.illumination, 0, 0, 24, false),
+                         block_sum(triangles.mixed, 0, 0, 24, false),
+                         block_sum(triangles.mixed_wide, 0, 0, 24, false)};
+  constexpr double kPinnedSums[] = {78.6436070, 38.5488984, 37.9325619};  // SSE2 to AVX-512: within 1e-8
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(sums[i], kPinnedSums[i], 1e-6 * kPinnedSums[i]) << i << advice;
+}
+
+TEST(CausticReference, ItsDescriptionTellsEverySettingApart) {
+  using S = CausticReferenceSettings;
+  const auto changed = [](auto change) {
+    S s = reference_settings();
+    change(s);
+    return describe(s);
+  };
+  std::set<std::string> texts{changed([](S&) {}),
+                              changed([](S& s) { s.paths = 200001; }),
+                              changed([](S& s) { s.map_resolution = 129; }),
+                              changed([](S& s) { s.max_events = 63; }),
+                              changed([](S& s) { s.mixed = false; }),
+                              changed([](S& s) { s.passes = 3; }),
+                              changed([](S& s) { s.radius_pixels = std::nextafter(1.0, 2.0); }),
+                              changed([](S& s) { s.camera_paths = 2; }),
+                              changed([](S& s) { s.lights = {}; }),
+                              changed([](S& s) {
+                                s.lights = {0, 1};
+                              }),
+                              changed([](S& s) { s.lights = {1}; }),
+                              changed([](S& s) { s.mode = TraceMode::single; }),
+                              changed([](S& s) { s.seed = 2; })};
+  EXPECT_EQ(texts.size(), 13u);
 }
 
 TEST(CausticReference, WhatACoarseMapMissesIsFoundAndMeasured) {

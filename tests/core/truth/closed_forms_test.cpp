@@ -1,6 +1,5 @@
 #include "core/truth/closed_forms.h"
 
-#include "core/base/error.h"
 #include "core/scene/procedural/closed_form_scenes.h"
 #include "core/tracer/tracer.h"
 #include "tests/core/truth/brute_force_caustic.h"
@@ -15,14 +14,8 @@ constexpr double kPi = std::numbers::pi;
 constexpr uint64_t kSeed = 20241;
 constexpr int kMany = 1000;
 
-Scene scene_called(const std::string& name) {
-  for (const Generator& generator : closed_form_generators())
-    if (generator.name == name) return generator.generate({});
-  throw InputError(name, "no such scene");
-}
-
 ClosedForm form_of(const std::string& name, int max_events) {
-  return closed_form(scene_called(name), max_events).value();
+  return closed_form(test::closed_form_scene(name), max_events).value();
 }
 
 // Toward all that can matter, generously.
@@ -42,7 +35,7 @@ test::Emission emission_for(const std::string& scene) {
 class ClosedFormScene : public testing::TestWithParam<const char*> {};
 
 TEST_P(ClosedFormScene, AgreesWithBruteForceLightTransport) {
-  const Scene scene = scene_called(GetParam());
+  const Scene scene = test::closed_form_scene(GetParam());
   for (const int max_events : {3, 4, 40}) {
     const ClosedForm form = closed_form(scene, max_events).value();
     const test::BruteForce brute_force(scene, form, emission_for(GetParam()), max_events);
@@ -68,14 +61,14 @@ TEST_P(ClosedFormScene, StatesAQuadratureErrorThatDoesNotMatter) {
 }
 
 TEST_P(ClosedFormScene, HasNoTruthForFewerEventsThanTheLightNeeds) {
-  const Scene scene = scene_called(GetParam());
+  const Scene scene = test::closed_form_scene(GetParam());
   const int needed = form_of(GetParam(), kMany).specular_events_needed;
   EXPECT_TRUE(closed_form(scene, needed).has_value());
   EXPECT_FALSE(closed_form(scene, needed - 1).has_value());
 }
 
 TEST_P(ClosedFormScene, IsKnownByItsContentsWhateverItsNameAndCameras) {
-  Scene scene = scene_called(GetParam());
+  Scene scene = test::closed_form_scene(GetParam());
   scene.name = "renamed";
   scene.cameras.push_back({});
   update_content_hash(scene);
@@ -87,7 +80,7 @@ TEST_P(ClosedFormScene, IsKnownByItsContentsWhateverItsNameAndCameras) {
 
 TEST_P(ClosedFormScene, ShowsAllOfItsRegionsToItsCamera) {
   if (std::string(GetParam()) == "closed_furnace") return;  // no camera sees all walls of a room
-  const Scene scene = scene_called(GetParam());
+  const Scene scene = test::closed_form_scene(GetParam());
   const Tracer tracer(scene, {.robust = true});
   const ClosedForm form = form_of(GetParam(), 3);
   const dvec3 eye(scene.cameras.at(0).eye);
@@ -143,7 +136,7 @@ TEST(ClosedForms, TheBallLensHasTheKnownRingAverages) {
 
 TEST(ClosedForms, NoOtherPathOfTwoEventsReachesTheRingsUnderTheBall) {
   // The rim rays pass at tan(asin(1 / 4.5)) * 6 = 1.37 m; reflection at the outside turns rays outward.
-  const Scene scene = scene_called("closed_ball_lens");
+  const Scene scene = test::closed_form_scene("closed_ball_lens");
   const ClosedForm form = closed_form(scene, 2).value();
   for (const test::Estimate& e :
        test::BruteForce(scene, form, emission_for(scene.name), 1).run(200000, kSeed))

@@ -18,15 +18,17 @@ class CausticsProgramTest : public ::testing::Test {
  protected:
   test::Outcome hybray(std::vector<std::string> arguments, const std::string& root = HYBRAY_PROJECT_DIR) {
     arguments.insert(arguments.begin(), HYBRAY_PROGRAM);
-    return test::run_process(arguments, {folder_.path().string(), {{"HYBRAY_ROOT", root}}, ""});
+    return test::run_process(
+        arguments, {folder_.path().string(), {{"HYBRAY_ROOT", root}, {"HYBRAY_CACHE_BYTES", "0"}}, ""});
   }
 
   // Runs one small point; its scenes are those of the generators and the overlays in scenes/ of the folder.
-  test::Outcome run_point(const std::string& parameters) {
+  test::Outcome run_point(const std::string& parameters, const std::string& reference_paths = "0") {
+    std::filesystem::remove_all(folder_ / "out");
     folder_.write("point.json",
                   "{\"experiment\": \"caustics\",\n \"parameters\": {\"camera\": \"front\", \"resolution\": "
-                  "\"32x18\", \"reference_paths\": 0, \"repeats\": 1,\n  " +
-                      parameters + "}}");
+                  "\"32x18\", \"reference_paths\": " +
+                      reference_paths + ", \"repeats\": 1,\n  " + parameters + "}}");
     std::filesystem::create_directories(folder_ / "scenes");
     return hybray({"run", "point.json", "-o", "out", "-q"}, folder_.path().string());
   }
@@ -159,7 +161,11 @@ TEST_F(CausticsProgramTest, RefusesParametersOutsideTheirRangeWithTheirPlace) {
   expect_refused(
       ball + "\"rays_per_texel\": 0",
       "point.json:3:44 (/parameters/rays_per_texel): found 0; expected a number from 0.0001 to 1000000");
-  expect_refused(ball + "\"rays_per_texel\": 1e9", "point.json:3:44 (/parameters/rays_per_texel): found 1");
+  expect_refused(
+      ball + "\"rays_per_texel\": 1e9",
+      "point.json:3:44 (/parameters/rays_per_texel): found 1000000000.0; expected a number from 0.0001 "
+      "to 1000000");
+  expect_refused(ball + "\"rays_per_texel\": 1e999", "point.json:3:");
   expect_refused(ball + "\"rays_per_texel\": NaN", "point.json:3:44: this is not JSON: ");
   expect_refused(ball + "\"emission\": \"uniformly\"",
                  "point.json:3:38 (/parameters/emission): found \"uniformly\"; expected one of ");
@@ -198,6 +204,17 @@ TEST_F(CausticsProgramTest, AnOpenBodyOfGlassFailsItsPointAndNamesObjectEdgesAnd
   EXPECT_EQ(run_point(R"("scene": "sheet")").exit_code, kOk);
 }
 
+TEST_F(CausticsProgramTest, AnOpenAnalyticBodyOfGlassFailsItsPointLikeOneOfTriangles) {
+  // The wall of a cylinder has two rims.
+  folder_.write("scenes/tube.json", R"({"source": {"generator": "closed_cylinder"}, "cameras": [
+      {"name": "front", "eye": [0, 3, 0.6], "target": [0, 0, 0]}],
+      "materials": {"mirror": {"metallic": 0, "transmission": 1, "ior": 1.5}}})");
+  const test::Outcome outcome = run_point(R"("scene": "tube")");
+  EXPECT_EQ(outcome.exit_code, kSomeFailed);
+  for (const char* part : {"failed: scene tube: object 'mirror'", "is open at 2 edges", "thin_walled"})
+    EXPECT_NE(outcome.err.find(part), std::string::npos) << part << "\n" << outcome.err;
+}
+
 TEST_F(CausticsProgramTest, AnIndexOfRefractionBelowOneOrNanIsRefusedWithItsPlaceInTheScene) {
   folder_.write("scenes/low_index.json",
                 R"({"source": {"generator": "glass_ball"}, "materials": {"glass": {"ior": 0.9}}})");
@@ -210,6 +227,57 @@ TEST_F(CausticsProgramTest, AnIndexOfRefractionBelowOneOrNanIsRefusedWithItsPlac
   const test::Outcome nan = run_point(R"("scene": "nan_index")");
   EXPECT_EQ(nan.exit_code, kUsage);
   EXPECT_NE(nan.err.find("nan_index.json:2:"), std::string::npos) << nan.err;
+  const std::pair<const char*, const char*> others[] = {
+      {R"("ior": 0)", "/ior: 0 is not between 1 and 100"},
+      {R"("ior": -1.5)", "/ior: -1.5 is not between 1 and 100"},
+      {R"("ior": null)", "/ior: expected a number, found null"},
+      {R"("outer_ior": 0.99)", "/outer_ior: 0.99 is not between 1 and 100"},
+      {R"("absorption": [-1, 0, 0])", "/absorption: -1 is not between 0 and"}};
+  for (const auto& [property, message] : others) {
+    const std::filesystem::path file = folder_.write(
+        "scenes/other_index.json", R"({"source": {"generator": "glass_ball"}, "materials": {"glass": {)" +
+                                       std::string(property) + "}}}");
+    expect_refused(R"("scene": "other_index")",
+                   "point.json:3:12 (/parameters/scene): " + file.string() + ": /materials/glass" + message);
+  }
+}
+
+TEST_F(CausticsProgramTest, AScenesOnlyLightMayBeDarkOrMissingAndMakesNoCaustic) {
+  folder_.write("scenes/dark.json", R"({"source": {"generator": "glass_ball"}, "replace_lights": true,
+      "lights": [{"name": "dark", "kind": "point", "position": [1, 2, 1], "intensity": 0}]})");
+  folder_.write("scenes/no_light.json",
+                R"({"source": {"generator": "glass_ball"}, "replace_lights": true, "lights": []})");
+  for (const auto& [scene, skipped] : {std::pair("dark", "1"), {"no_light", "0"}})
+    for (const char* emission : {"map", "uniform"}) {
+      const test::Outcome outcome =
+          run_point("\"scene\": \"" + std::string(scene) + "\", \"emission\": \"" + emission + "\"", "20000");
+      EXPECT_EQ(outcome.exit_code, kOk) << outcome.err;
+      EXPECT_EQ(outcome.err, "");
+      const CsvTable table = read_csv(folder_ / "out/point.csv");
+      EXPECT_EQ(cell(table, 0, "lights_skipped"), skipped);
+      for (const char* name : {"paths", "photons", "rays_traced", "photon_pairs", "emitted_flux"})
+        EXPECT_EQ(cell(table, 0, name), "0") << name;
+      for (const char* name : {"relmse", "energy_ratio", "deposited_fraction", "missed_by_map_fraction"})
+        EXPECT_EQ(cell(table, 0, name), "") << name;
+    }
+  folder_.write("scenes/negative.json", R"({"source": {"generator": "glass_ball"},
+      "lights": [{"name": "sink", "kind": "point", "position": [1, 2, 1], "intensity": -5}]})");
+  expect_refused(R"("scene": "negative")",
+                 "point.json:3:12 (/parameters/scene): " + (folder_ / "scenes/negative.json").string() +
+                     ": /lights/0/intensity: -5 is not between 0 and");
+}
+
+TEST_F(CausticsProgramTest, ALampThatTouchesTheGlassIsCountedNotLost) {
+  // In the pole of the ball half of the directions start in glass and half in air: whichever medium the lamp
+  // is said to lie in, other paths meet their interfaces from the wrong one. All flux stays in the account.
+  folder_.write("scenes/touching.json", R"({"source": {"generator": "glass_ball"}, "replace_lights": true,
+      "lights": [{"name": "touching", "kind": "point", "position": [0, 1.25, 0], "intensity": 5}]})");
+  const test::Outcome outcome = run_point(R"("scene": "touching", "map_resolution": 64, "frames": 2)");
+  EXPECT_EQ(outcome.exit_code, kOk) << outcome.err;
+  const CsvTable table = read_csv(folder_ / "out/point.csv");
+  EXPECT_GT(std::stoll(cell(table, 0, "medium_mismatches")), 0);
+  EXPECT_LE(std::stod(cell(table, 0, "ledger_residual_fraction")), 1e-9);
+  EXPECT_EQ(cell(table, 0, "accumulator_overflows"), "0");
 }
 
 TEST_F(CausticsProgramTest, DarkLightsAndLightsAndCamerasInsideGlassAreNoErrors) {

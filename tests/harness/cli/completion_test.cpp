@@ -25,7 +25,8 @@ class CompletionTest : public ::testing::Test {
     test::ProcessOptions options;
     options.folder = folder_.path().string();
     options.environment = {{"HYBRAY_ROOT", HYBRAY_PROJECT_DIR}, {"HYBRAY_SCENE_PATH", ""}};
-    const test::Outcome outcome = test::run_process({"/bin/bash", "-c", script, "bash", HYBRAY_PROGRAM}, options);
+    const test::Outcome outcome =
+        test::run_process({"/bin/bash", "-c", script, "bash", HYBRAY_PROGRAM}, options);
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(outcome.err, "");
     Words lines;

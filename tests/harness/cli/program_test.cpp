@@ -5,6 +5,7 @@
 #include "tests/temporary_folder.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 namespace hybray {
 namespace {
@@ -166,13 +167,76 @@ TEST_F(ProgramTest, ListsThePointsOfASweep) {
                                         "  count=2 length=2  about 2 s, 610 MiB\n");
 }
 
+TEST_F(ProgramTest, ListsThePointsForScripts) {
+  folder_.write("toy.json",
+                R"({"experiment": "toy", "parameters": {"count": 1}, "sweep": {"length": [1, 2.5]}})");
+  folder_.write("other.json", R"({"experiment": "toy", "parameters": {"count": 2}})");
+  folder_.write("suite.json", R"({"configs": ["toy.json", "other.json"]})");
+  const test::Outcome csv = hybray({"points", "suite.json", "--csv"});
+  EXPECT_EQ(csv.exit_code, kOk) << csv.err;
+  const CsvTable table = parse_csv(csv.out, "points");
+  EXPECT_EQ(table.header, (std::vector<std::string>{"config", "experiment", "id", "cost_s", "memory_bytes",
+                                                    "count", "length", "loud", "behaviour", "resolution"}));
+  ASSERT_EQ(table.rows.size(), 3u);
+  EXPECT_EQ(table.rows[1][0], "toy");
+  EXPECT_EQ(table.rows[1][3], "2");
+  EXPECT_EQ(table.rows[1][6], "2.5");
+  EXPECT_EQ(table.rows[2][0], "other");
+  EXPECT_EQ(csv.err,
+            "hybray: info: toy: 2 points, about 0:04\nhybray: info: other: 1 points, about 0:02\n"
+            "hybray: info: 3 points, about 0:06 in all\n");
+
+  const test::Outcome json = hybray({"points", "suite.json", "--json"});
+  const auto root = nlohmann::json::parse(json.out);
+  EXPECT_EQ(root["cost_s"], 6);
+  EXPECT_EQ(root["configs"][0]["config"], "toy");
+  EXPECT_EQ(root["configs"][0]["cost_s"], 4);
+  EXPECT_EQ(root["configs"][0]["points"][1]["id"], table.rows[1][2]);
+  EXPECT_EQ(root["configs"][0]["points"][1]["parameters"]["length"], 2.5);
+  EXPECT_EQ(root["configs"][0]["points"][1]["memory_bytes"], 64e7);
+  EXPECT_EQ(hybray({"points", "toy.json", "--json", "--csv"}).exit_code, kUsage);
+}
+
+TEST_F(ProgramTest, RunsTheConfigsOfASuiteIntoFoldersOfTheirOwn) {
+  folder_.write("configs/a.json", R"({"experiment": "toy", "points": [{"count": 1}, {"count": 2}]})");
+  folder_.write("configs/b.json",
+                R"({"experiment": "toy", "sweep": {"count": {"from": 1, "to": 9, "step": 2}}})");
+  folder_.write("configs/all.json",
+                R"({"configs": ["a.json", {"config": "b.json", "filter": {"count": [3, 9]}}]})");
+  const test::Outcome outcome = hybray({"run", "configs/all.json", "-q", "--set", "length=1,2"});
+  EXPECT_EQ(outcome.exit_code, kOk) << outcome.err;
+  EXPECT_EQ(read_csv(folder_ / "root/results/out/a/a.csv").rows.size(), 4u);
+  EXPECT_EQ(read_csv(folder_ / "root/results/out/b/b.csv").rows.size(), 4u);
+  const auto manifest = nlohmann::json::parse(test::content_of(folder_ / "root/results/out/b/manifest.json"));
+  EXPECT_EQ(manifest["config"]["filter"], nlohmann::json{"count=[3,9]"});
+  EXPECT_EQ(manifest["config"]["set"], nlohmann::json{"length=1,2"});
+
+  const test::Outcome filtered = hybray({"run", "configs/all.json", "-o", "out", "--filter", "count=9"});
+  EXPECT_EQ(filtered.exit_code, kOk) << filtered.err;
+  EXPECT_NE(filtered.err.find("a: no point matches the filters"), std::string::npos) << filtered.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out/a"));
+  EXPECT_EQ(read_csv(folder_ / "out/b/b.csv").rows.size(), 1u);
+}
+
+TEST_F(ProgramTest, RunsNothingOfASuiteWithAWrongConfig) {
+  folder_.write("a.json", R"({"experiment": "toy", "parameters": {"count": 1}})");
+  folder_.write("b.json", R"({"experiment": "toy", "points": [{"count": 10}]})");
+  folder_.write("all.json", R"({"configs": ["a.json", "b.json"]})");
+  const test::Outcome outcome = hybray({"run", "all.json", "-o", "out"});
+  EXPECT_EQ(outcome.exit_code, kUsage);
+  EXPECT_EQ(outcome.err,
+            "hybray: error: b.json:1:44 (/points/0/count): found 10; expected an integer from 1 to 9\n");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
+}
+
 TEST_F(ProgramTest, DescribesExperimentsForPeopleDocsAndEditors) {
   EXPECT_EQ(hybray({"describe"}).out, "toy  Measures nothing.\nstaged  Measures nothing on a scene.\n");
   EXPECT_NE(hybray({"describe", "toy"}).out.find("an integer from 1 to 9"), std::string::npos);
-  EXPECT_NE(
-      hybray({"describe", "toy", "--markdown"}).out.find("| note |  | key |  | text with commas \\| bars |"),
-      std::string::npos);
+  EXPECT_NE(hybray({"describe", "toy", "--markdown"})
+                .out.find("| note |  | key |  | row | text with commas \\| bars |"),
+            std::string::npos);
   EXPECT_EQ(hybray({"describe", "toy", "--schema"}).out.front(), '{');
+  EXPECT_EQ(hybray({"describe", "suite", "--schema"}).out.front(), '{');
   const test::Outcome unknown = hybray({"describe", "tpy"});
   EXPECT_EQ(unknown.exit_code, kUsage);
   EXPECT_EQ(unknown.err, "hybray: error: describe: unknown experiment \"tpy\"; did you mean \"toy\"?\n");

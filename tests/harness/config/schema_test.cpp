@@ -37,7 +37,8 @@ TEST_F(SchemaTest, FollowsFromTheDeclaration) {
   const Json& length = schema["definitions"]["length"];
   EXPECT_EQ(length["default"], 0.5);
   EXPECT_EQ(length["description"], "How long. (m) Expects a number of at least 0 m.");
-  EXPECT_EQ(schema["definitions"]["behaviour"]["enum"], (Json{"plain", "throw", "nan", "sleep"}));
+  EXPECT_EQ(schema["definitions"]["behaviour"]["enum"],
+            (Json{"plain", "throw", "nan", "sleep", "wordy", "fragile"}));
 }
 
 TEST_F(SchemaTest, AcceptsAGoodConfig) {
@@ -46,6 +47,13 @@ TEST_F(SchemaTest, AcceptsAGoodConfig) {
           R"({"$schema": "x", "experiment": "staged", "seed": 0, "parameters": {"count": 9, "length": 1,
     "loud": true, "camera": "*"}, "sweep": {"scene": ["a"], "resolution": ["1x1", "1920x1080"]}})")
           .empty());
+  EXPECT_TRUE(violations(R"({"experiment": "staged", "points": [{}, {"scene": "a", "count": 2}],
+    "scenes": {"a": {"camera": "x", "length": 0.5}}, "sweep": {"length": {"from": 0, "to": 1, "step": 0.5},
+    "loud": [true, false]}})")
+                  .empty());
+  EXPECT_TRUE(violations(R"({"experiment": "staged",
+    "sweep": {"count": {"from": 1, "to": 8, "count": 4, "scale": "log"}}})")
+                  .empty());
 }
 
 // Each document breaks one rule, at the pointer beside it.
@@ -69,6 +77,30 @@ const std::pair<const char*, const char*> kBroken[] = {
     {R"({"experiment": "staged", "sweep": {"count": []}})", "/sweep/count"},
     {R"({"experiment": "staged", "sweep": {"count": [1, 1]}})", "/sweep/count"},
     {R"({"experiment": "staged", "sweep": {"count": [1, "2"]}})", "/sweep/count/1"},
+    {R"({"experiment": "staged", "sweep": {"count": {"from": 1, "to": 9}}})", "/sweep/count"},
+    {R"({"experiment": "staged", "sweep": {"count": {"from": 1, "count": 3}}})", "/sweep/count"},
+    {R"({"experiment": "staged", "sweep": {"count": {"from": 1, "to": 9, "count": 3, "step": 4}}})",
+     "/sweep/count"},
+    {R"({"experiment": "staged", "sweep": {"count": {"from": 1, "to": 10, "count": 4}}})", "/sweep/count/to"},
+    {R"({"experiment": "staged", "sweep": {"count": {"from": 1, "to": 9, "count": 1}}})",
+     "/sweep/count/count"},
+    {R"({"experiment": "staged", "sweep": {"count": {"from": 1, "to": 9, "step": 2, "scale": "cubic"}}})",
+     "/sweep/count/scale"},
+    {R"({"experiment": "staged", "sweep": {"count": {"from": 1, "to": 9, "steps": 2}}})", "/sweep/count"},
+    {R"({"experiment": "staged", "sweep": {"loud": {"from": 1, "to": 9, "count": 2}}})", "/sweep/loud"},
+    {R"({"experiment": "staged", "points": []})", "/points"},
+    {R"({"experiment": "staged", "points": {}})", "/points"},
+    {R"({"experiment": "staged", "points": [1]})", "/points/0"},
+    {R"({"experiment": "staged", "points": [{"count": 1}, {"count": 1}]})", "/points"},
+    {R"({"experiment": "staged", "points": [{"count": 0}]})", "/points/0/count"},
+    {R"({"experiment": "staged", "points": [{"count": [1]}]})", "/points/0/count"},
+    {R"({"experiment": "staged", "points": [{"extra": 1}]})", "/points/0"},
+    {R"({"experiment": "staged", "scenes": []})", "/scenes"},
+    {R"({"experiment": "staged", "parameters": {"scene": "a"}, "scenes": {"a": 1}})", "/scenes/a"},
+    {R"({"experiment": "staged", "parameters": {"scene": "a"}, "scenes": {"a": {"scene": "a"}}})",
+     "/scenes/a"},
+    {R"({"experiment": "staged", "parameters": {"scene": "a"}, "scenes": {"a": {"count": 0}}})",
+     "/scenes/a/count"},
     {R"({"experiment": "staged", "optional_scenes": "a"})", "/optional_scenes"},
     {R"({"experiment": "staged", "optional_scenes": [1]})", "/optional_scenes/0"},
 };
@@ -89,9 +121,10 @@ TEST_F(SchemaTest, RejectsOnlyWhatHasAMessageFromTheDeclaration) {
     if (source.root()["experiment"] != "staged") continue;
     const auto problems = config_problems(source, staged_);
     ASSERT_FALSE(problems.empty()) << document;
-    const bool ours = problems[0].message.starts_with("found ") ||
-                      problems[0].message.starts_with("unknown ") ||
-                      problems[0].message.starts_with("the value ");
+    const bool ours =
+        problems[0].message.starts_with("found ") || problems[0].message.starts_with("unknown ") ||
+        problems[0].message.starts_with("the ") || problems[0].message.starts_with("this point ") ||
+        problems[0].message.starts_with("a range ");
     EXPECT_TRUE(ours) << document << ": " << problems[0].message;
   }
 }
@@ -105,6 +138,8 @@ TEST(CheckedInSchemas, AreWhatTheDeclarationsSay) {
         << "make it anew: hybray describe " << experiment.name << " --schema > configs/schema/"
         << experiment.name << ".schema.json";
   }
+  EXPECT_EQ(test::content_of(HYBRAY_PROJECT_DIR "/configs/schema/suite.schema.json"), suite_schema_text())
+      << "make it anew: hybray describe suite --schema > configs/schema/suite.schema.json";
 }
 
 }  // namespace

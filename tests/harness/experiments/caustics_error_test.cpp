@@ -1,4 +1,6 @@
 // Errors that `caustics` measures against its references: how they fall, and what they are free of.
+#include "core/base/develop.h"
+#include "core/metrics/ssim.h"
 #include "tests/harness/experiments/caustics_fixture.h"
 
 #include <cmath>
@@ -49,6 +51,60 @@ TEST_F(CausticsError, RelmseFallsWithTheNumberOfPathsAtTheRateOfTheory) {
                        number(*row, "relmse") - number(*row, "reference_relmse"));
     }
   }
+}
+
+TEST_F(CausticsError, WhatADisplayShowsImprovesWithTheNumberOfPathsAtExposuresThatTheReferenceFixes) {
+  Workspace workspace(settings());
+  const auto at = [&](double rays) {
+    return run_in(workspace, unbiased("glass_ball", {{"rays_per_texel", rays}, {"reference_paths", 1e5}}));
+  };
+  const Row few = at(0.25), many = at(16.0);
+  for (const char* name : {"flip_exposure_start", "flip_exposure_stop"})
+    EXPECT_EQ(number(few, name), number(many, name)) << name;
+  // Most of the image is black. Its brightest pixel is at most the number of pixels times the mean, its
+  // median at least 1 % of that.
+  const double stops = number(few, "flip_exposure_stop") - number(few, "flip_exposure_start");
+  EXPECT_GT(stops, 0.0);
+  EXPECT_LE(stops, std::log2(100.0 * 32 * 18));
+  EXPECT_LT(number(many, "flip"), number(few, "flip"));
+  EXPECT_LT(number(many, "smape"), number(few, "smape"));
+  EXPECT_GT(number(many, "psnr"), number(few, "psnr"));
+  EXPECT_GT(number(many, "ssim"), number(few, "ssim"));
+}
+
+// The same from the frames, by the library alone.
+TEST_F(CausticsError, OnADisplayIsThatOfTheFirstFrameForFlipAndTheMeanOverFramesForTheOthers) {
+  Workspace workspace(settings());
+  const Changes changes =
+      unbiased("metal_ring", {{"frames", int64_t{3}}, {"rays_per_texel", 2.0}, {"reference_paths", 2e4}});
+  const Row row = run_in(workspace, changes);
+  const Point point = point_of(workspace, changes);
+  const caustics_parts::Setup setup = caustics_parts::make_setup(point, workspace);
+  const Image2D<vec3>& truth = caustics_parts::reference(point, workspace, setup).image.mean;
+  const metrics::FlipExposures exposures = metrics::flip_exposures(truth);
+  EXPECT_EQ(number(row, "flip_exposure_start"), exposures.start);
+  EXPECT_EQ(number(row, "flip_exposure_stop"), exposures.stop);
+  const float middle = metrics::exposure_factor(0.5 * (exposures.start + exposures.stop));
+  const caustics::MapSet maps = caustics::make_maps(setup.caustic_scene, setup.pass);
+  double psnr = 0.0, ssim = 0.0, smape = 0.0;
+  for (uint32_t f = 0; f < 3; ++f) {
+    const Image2D<vec3> image = caustics_parts::make_frame(setup, maps, f).image;
+    if (f == 0) {
+      EXPECT_EQ(number(row, "flip"), metrics::mean_error(metrics::hdr_flip(image, truth, exposures)));
+    }
+    psnr += metrics::psnr(display_image(image, middle), display_image(truth, middle)) / 3.0;
+    ssim += metrics::ssim(display_image(image, middle), display_image(truth, middle)) / 3.0;
+    smape += metrics::image_error(image, {truth, {}}).smape / 3.0;
+  }
+  EXPECT_DOUBLE_EQ(number(row, "psnr"), psnr);
+  EXPECT_DOUBLE_EQ(number(row, "ssim"), ssim);
+  EXPECT_DOUBLE_EQ(number(row, "smape"), smape);
+}
+
+TEST_F(CausticsError, ImagesTooSmallForAWindowHaveNoSsim) {
+  const Row row = run({{"resolution", text("12x10")}, {"reference_paths", 1e4}, {"rays_per_texel", 4.0}});
+  EXPECT_TRUE(is_empty(row, "ssim"));
+  EXPECT_FALSE(is_empty(row, "flip"));
 }
 
 TEST_F(CausticsError, TheReferencesOwnErrorFallsWithItsPaths) {

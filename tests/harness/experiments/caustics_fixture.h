@@ -25,6 +25,10 @@ class CausticsFixture : public testing::Test {
 
   // The same in a workspace that keeps what it has.
   static Row run_in(Workspace& workspace, const Changes& changes) {
+    return caustics_experiment().run(point_of(workspace, changes), workspace);
+  }
+
+  static Point point_of(Workspace& workspace, const Changes& changes) {
     Point point{"0123456789abcdef", {}};
     for (const Parameter& p : caustics_experiment().parameters) point.parameters[p.name] = p.default_value;
     for (const auto& [name, value] : Changes{{"scene", text("glass_ball")},
@@ -38,7 +42,7 @@ class CausticsFixture : public testing::Test {
     for (const auto& [name, value] : changes) point.parameters.at(name) = value;
     if (point.text("camera") == "*")
       point.parameters["camera"] = workspace.scene(point.text("scene")).cameras.at(0).name;
-    return caustics_experiment().run(point, workspace);
+    return point;
   }
 
   // Scenes of the project, and before them the overlays that the test wrote.
@@ -57,6 +61,9 @@ class CausticsFixture : public testing::Test {
   static Value text(const char* t) { return std::string(t); }
   static double number(const Row& row, const std::string& name) { return std::get<double>(row.at(name)); }
   static int64_t integer(const Row& row, const std::string& name) { return std::get<int64_t>(row.at(name)); }
+  static std::string text_of(const Row& row, const std::string& name) {
+    return std::get<std::string>(row.at(name));
+  }
   static bool is_empty(const Row& row, const std::string& name) {
     const auto cell = row.find(name);
     return cell == row.end() || std::holds_alternative<std::monostate>(cell->second);

@@ -34,15 +34,15 @@ TEST_F(CausticsPicture, IsWrittenOnlyWhenAskedFor) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "out"));
 }
 
-TEST_F(CausticsPicture, ShowsTheSceneWithoutAndWithCausticsTheCausticsAndTheReference) {
+TEST_F(CausticsPicture, ShowsTheSceneWithoutAndWithCausticsTheCausticsTheReferenceAndTheirDifference) {
   run({{"camera", text("front")},
        {"picture", true},
        {"rays_per_texel", 16.0},
        {"mirror_depth", int64_t{6}},
        {"reference_paths", 1e5}});
   const auto off = pixels("off"), on = pixels("on"), caustics = pixels("caustics"),
-             reference = pixels("reference");
-  for (const auto* picture : {&off, &on, &caustics, &reference}) {
+             reference = pixels("reference"), flip = pixels("flip");
+  for (const auto* picture : {&off, &on, &caustics, &reference, &flip}) {
     ASSERT_EQ(picture->size(), 64u * 36u * 3u);
     EXPECT_FALSE(is_black(*picture));
   }
@@ -54,7 +54,7 @@ TEST_F(CausticsPicture, ShowsTheSceneWithoutAndWithCausticsTheCausticsAndTheRefe
   size_t lit = 0;
   for (size_t i = 0; i < on.size(); ++i) lit += on[i] > off[i] + 40;
   EXPECT_GT(lit, 10u);
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_ / "out/pictures"), {}), 4);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_ / "out/pictures"), {}), 5);
 }
 
 TEST_F(CausticsPicture, WithoutCausticsIsTheSceneAlone) {

@@ -4,9 +4,13 @@
 #include "harness/experiments/workspace.h"
 #include "tests/temporary_folder.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
+#include <stdexcept>
+#include <vector>
 
+#include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
 
 namespace hybray {
@@ -28,6 +32,19 @@ class SsrmTest : public testing::Test {
   }
   static double number(const Row& row, const std::string& name) { return std::get<double>(row.at(name)); }
   static int64_t integer(const Row& row, const std::string& name) { return std::get<int64_t>(row.at(name)); }
+
+  std::vector<bool> black_pixels(const std::string& name) {
+    const auto input = OIIO::ImageInput::open((folder_ / name).string());
+    if (!input) throw std::runtime_error(name + ": " + OIIO::geterror());
+    const OIIO::ImageSpec& spec = input->spec();
+    std::vector<uint8_t> values(static_cast<size_t>(spec.image_pixels()) *
+                                static_cast<size_t>(spec.nchannels));
+    input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::UINT8, values.data());
+    std::vector<bool> black;
+    for (size_t i = 0; i < values.size(); i += static_cast<size_t>(spec.nchannels))
+      black.push_back(values[i] + values[i + 1] + values[i + 2] == 0);
+    return black;
+  }
 
   const test::TemporaryFolder folder_;
 };
@@ -122,6 +139,16 @@ TEST_F(SsrmTest, WritesThePictureOnlyWhenAsked) {
   const std::string name =
       "sphere_" + std::get<std::string>(row.at("camera")) + "_160x90_0123456789abcdef.png";
   EXPECT_GT(std::filesystem::file_size(folder_ / ("pictures/" + name)), 500u);
+}
+
+TEST_F(SsrmTest, ThePicturesOfVerdictsAndOfTheMainViewAreBlackWhereNoRayWasMade) {
+  const Row row = run({{"picture", true}, {"camera", std::string("*")}});
+  const std::string stem =
+      "pictures/sphere_" + std::get<std::string>(row.at("camera")) + "_160x90_0123456789abcdef";
+  const std::vector<bool> verdicts = black_pixels(stem + ".png"), view = black_pixels(stem + "_view.png");
+  EXPECT_EQ(verdicts, view);
+  EXPECT_EQ(std::count(view.begin(), view.end(), true), integer(row, "paths_skipped"));
+  EXPECT_GT(integer(row, "rays"), 0);
 }
 
 TEST_F(SsrmTest, ABudgetMovesRaysToUnknownBudget) {

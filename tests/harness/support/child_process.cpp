@@ -1,10 +1,12 @@
 #include "tests/harness/support/child_process.h"
 
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <stdexcept>
 
 #include <poll.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -37,6 +39,10 @@ struct Pipe {
     else
       setenv(name.c_str(), value.c_str(), 1);
   }
+  if (options.file_size_limit) {
+    const rlimit limit{*options.file_size_limit, *options.file_size_limit};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
   if (!options.folder.empty() && chdir(options.folder.c_str()) != 0) _exit(126);
   std::vector<char*> arguments;
   for (const std::string& argument : command) arguments.push_back(const_cast<char*>(argument.c_str()));
@@ -66,16 +72,24 @@ Outcome run_process(const std::vector<std::string>& command, const ProcessOption
   err.close_end(1);
 
   Outcome outcome;
-  bool interrupted = options.interrupt_when.empty();
+  using Clock = std::chrono::steady_clock;
+  bool interrupted = options.interrupt_when.empty() && !options.interrupt_after_ms;
+  std::optional<Clock::time_point> due;  // when to send the signal, once that is known
   while (out.ends[0] >= 0 || err.ends[0] >= 0) {
     pollfd waiting[2] = {{out.ends[0], POLLIN, 0}, {err.ends[0], POLLIN, 0}};
-    poll(waiting, 2, -1);
+    if (!interrupted && !due && (outcome.out + outcome.err).find(options.interrupt_when) != std::string::npos)
+      due = Clock::now() + std::chrono::milliseconds(options.interrupt_after_ms.value_or(0));
+    using std::chrono::milliseconds;
+    const auto left = due ? std::chrono::ceil<milliseconds>(*due - Clock::now()) : milliseconds(-1);
+    if (due && left.count() <= 0) {
+      kill(child, options.signal);
+      interrupted = true;
+      due.reset();
+      continue;
+    }
+    poll(waiting, 2, static_cast<int>(left.count()));
     if (waiting[0].revents) drain(out, outcome.out);
     if (waiting[1].revents) drain(err, outcome.err);
-    if (!interrupted && (outcome.out + outcome.err).find(options.interrupt_when) != std::string::npos) {
-      kill(child, SIGINT);
-      interrupted = true;
-    }
   }
   int status = 0;
   waitpid(child, &status, 0);

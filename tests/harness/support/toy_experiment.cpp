@@ -1,8 +1,10 @@
 #include "tests/harness/support/toy_experiment.h"
 
 #include "harness/experiments/resolution.h"
+#include "harness/experiments/workspace.h"
 
 #include <chrono>
+#include <filesystem>
 #include <limits>
 #include <stdexcept>
 #include <thread>
@@ -10,14 +12,16 @@
 namespace hybray::test {
 namespace {
 
-Row run_toy(const Point& point, Workspace&) {
+Row run_toy(const Point& point, Workspace& workspace) {
   const std::string& behaviour = point.text("behaviour");
   if (behaviour == "throw") throw std::runtime_error("the toy broke");
   if (behaviour == "sleep") std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  if (behaviour == "fragile" && std::filesystem::exists(workspace.settings().output / "hammer"))
+    throw std::runtime_error("the toy met a hammer");
   const double nan = std::numeric_limits<double>::quiet_NaN();
   return {{"count", point.integer("count")},
           {"doubled_m", behaviour == "nan" ? nan : 2 * point.number("length")},
-          {"note", std::string("a \"quoted\", word")},
+          {"note", behaviour == "wordy" ? std::string(20000, 'w') : "a \"quoted\", word"},
           {"toy_ms", 1.5}};
 }
 
@@ -41,7 +45,7 @@ std::vector<Experiment> toy_experiments() {
        std::string("plain"),
        {},
        {},
-       {"plain", "throw", "nan", "sleep"},
+       {"plain", "throw", "nan", "sleep", "wordy", "fragile"},
        "What it does."},
       {"resolution", resolution, "px", std::string("8x8"), 1, 16384, {}, "Size of nothing."},
   };
@@ -55,7 +59,7 @@ std::vector<Experiment> toy_experiments() {
   std::vector<Parameter> staged = own;
   staged.insert(staged.begin(), {{"scene", scene, "", required, {}, {}, {}, "Scene."},
                                  {"camera", camera, "", std::string("*"), {}, {}, {}, "Camera."}});
-  const auto cost = [](const Point&) { return 2.0; };
+  const auto cost = [](const Point&, const SceneFacts&) { return 2.0; };
   return {{"toy", "Measures nothing.", own, columns, run_toy, toy_memory, cost},
           {"staged", "Measures nothing on a scene.", staged, columns, run_toy, toy_memory, cost}};
 }

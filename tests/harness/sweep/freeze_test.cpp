@@ -6,12 +6,21 @@
 #include "tests/harness/support/toy_experiment.h"
 #include "tests/temporary_folder.h"
 
+#include <limits>
 #include <set>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace hybray {
 namespace {
+
+// What the command line asks of a sweep.
+struct Asked {
+  std::vector<std::string> filters;
+  double memory_bytes = std::numeric_limits<double>::infinity();
+  std::vector<std::string> assignments = {};
+};
 
 class FreezeTest : public ::testing::Test {
  protected:
@@ -27,23 +36,23 @@ class FreezeTest : public ::testing::Test {
             }) {}
 
   Config load(const std::string& text, const std::vector<std::string>& assignments = {}) {
-    return load_config(folder_.write("c.json", text), experiments_, assignments);
+    return load_config(folder_.write("c.json", text), experiments_, assignments_of("--set", assignments));
   }
 
-  FrozenSweep frozen(const std::string& text, const FreezeOptions& options = {}) {
-    config_ = load(text);
-    return freeze(config_, catalog_, options);
+  FrozenSweep frozen(const std::string& text, const Asked& asked = {}) {
+    config_ = load(text, asked.assignments);
+    return freeze(config_, catalog_, {assignments_of("--filter", asked.filters), asked.memory_bytes});
   }
 
-  std::vector<std::string> labels(const std::string& text, const FreezeOptions& options = {}) {
+  std::vector<std::string> labels(const std::string& text, const Asked& asked = {}) {
     std::vector<std::string> result;
-    const FrozenSweep sweep = frozen(text, options);
+    const FrozenSweep sweep = frozen(text, asked);
     for (const Point& point : sweep.points) result.push_back(point_label(config_, point));
     return result;
   }
 
-  std::string problem(const std::string& text, const FreezeOptions& options = {}) {
-    std::string message = test::message_of<InputError>([&] { frozen(text, options); });
+  std::string problem(const std::string& text, const Asked& asked = {}) {
+    std::string message = test::message_of<InputError>([&] { frozen(text, asked); });
     const std::string folder = folder_.path().string() + "/";
     for (size_t at; (at = message.find(folder)) != std::string::npos;) message.erase(at, folder.size());
     return message;
@@ -151,6 +160,125 @@ TEST_F(FreezeTest, KeepsThePointsThatPassTheFilters) {
   EXPECT_EQ(problem(text, {{"cuont=4"}}),
             "--filter cuont=4: unknown parameter \"cuont\"; did you mean \"count\"?");
   EXPECT_EQ(problem(text, {{"count=0"}}), "--filter count=0: found 0; expected an integer from 1 to 9");
+}
+
+TEST_F(FreezeTest, CombinesListedPointsWithTheSweep) {
+  EXPECT_EQ(labels(R"({"experiment": "toy", "sweep": {"loud": [false, true]},
+    "points": [{"count": 2, "length": 1}, {"count": 1, "length": 3}]})"),
+            (Labels{"count=2 length=1 loud=false", "count=2 length=1 loud=true",
+                    "count=1 length=3 loud=false", "count=1 length=3 loud=true"}));
+}
+
+TEST_F(FreezeTest, FillsInWhatAListedPointLeavesOut) {
+  EXPECT_EQ(
+      labels(
+          R"({"experiment": "toy", "parameters": {"count": 5}, "points": [{}, {"count": 6}, {"length": 3}]})"),
+      (Labels{"count=5 length=0.5", "count=6 length=0.5", "count=5 length=3"}));
+  EXPECT_EQ(problem(R"({"experiment": "toy", "parameters": {"count": 5}, "points": [{}, {"count": 5}]})"),
+            "c.json: two of \"points\" are the same, with what they leave out filled in: count=5");
+}
+
+TEST_F(FreezeTest, TakesScenesAndCamerasFromListedPoints) {
+  const std::string text = R"({"experiment": "staged", "sweep": {"count": [1, 2]}, "points": [
+    {"scene": "yard", "camera": "gate"}, {"scene": "hall", "camera": "*"}, {"scene": "yard", "length": 2}]})";
+  EXPECT_EQ(
+      labels(text, {{"count=1"}}),
+      (Labels{"scene=yard camera=gate length=0.5 count=1", "scene=yard camera=gate length=2 count=1",
+              "scene=hall camera=door length=0.5 count=1", "scene=hall camera=window length=0.5 count=1"}));
+  EXPECT_EQ(labels(text, {{"camera=window"}}).size(), 2u);
+  EXPECT_EQ(labels(text, {{}, 1e12, {"scene=hall", "camera=door"}}),
+            (Labels{"length=0.5 count=1", "length=0.5 count=2", "length=2 count=1", "length=2 count=2"}));
+  EXPECT_EQ(
+      problem(R"({"experiment": "staged", "parameters": {"count": 1},
+    "points": [{"scene": "yard", "camera": "gtae"}]})"),
+      "c.json:2:44 (/points/0/camera): the scene \"yard\" has no camera \"gtae\"; did you mean \"gate\"?");
+}
+
+TEST_F(FreezeTest, KeepsPointsWithoutASceneToTheScenesOfTheSweep) {
+  EXPECT_EQ(labels(R"({"experiment": "staged", "parameters": {"count": 1, "camera": "*"},
+    "sweep": {"scene": ["yard", "hall"]}, "points": [{"length": 1}, {"length": 2}]})"),
+            (Labels{"length=1 scene=yard camera=gate", "length=2 scene=yard camera=gate",
+                    "length=1 scene=hall camera=door", "length=2 scene=hall camera=door",
+                    "length=1 scene=hall camera=window", "length=2 scene=hall camera=window"}));
+}
+
+// Default < parameters < override of the scene < points and sweep < --set.
+TEST_F(FreezeTest, LetsTheMoreSpecificPlaceOfAParameterWin) {
+  const std::string text = R"({"experiment": "staged", "parameters": {"count": 1, "length": 2},
+    "sweep": {"scene": ["hall", "yard"]}, "points": [{}, {"length": 4}],
+    "scenes": {"hall": {"camera": "door", "length": 3}, "yard": {"loud": true, "count": 2}}})";
+  const auto lengths_and_counts = [&](const std::vector<std::string>& assignments) {
+    Labels result;
+    const FrozenSweep sweep = frozen(text, {{}, 1e12, assignments});
+    for (const Point& p : sweep.points)
+      result.push_back(fmt::format("{}/{}/{}/{}/{}", p.text("scene"), p.text("camera"), p.integer("count"),
+                                   p.number("length"), p.boolean("loud")));
+    return result;
+  };
+  EXPECT_EQ(lengths_and_counts({}), (Labels{"hall/door/1/3/false", "hall/door/1/4/false",
+                                            "yard/gate/2/2/true", "yard/gate/2/4/true"}));
+  EXPECT_EQ(lengths_and_counts({"length=7"}), (Labels{"hall/door/1/7/false", "yard/gate/2/7/true"}));
+  EXPECT_EQ(
+      lengths_and_counts({"count=8,9", "loud=false", "length=1"}),
+      (Labels{"hall/door/8/1/false", "hall/door/9/1/false", "yard/gate/8/1/false", "yard/gate/9/1/false"}));
+}
+
+TEST_F(FreezeTest, AcceptsARequiredParameterThatEverySceneGives) {
+  const std::string text = R"({"experiment": "staged", "sweep": {"scene": ["hall", "yard"]},
+    "scenes": {"hall": {"count": 1}, "yard": {"count": 2}}})";
+  EXPECT_EQ(frozen(text).points.size(), 3u);
+  EXPECT_EQ(problem(R"({"experiment": "staged", "sweep": {"scene": ["hall", "yard"]},
+    "scenes": {"hall": {"count": 1}}})"),
+            "c.json:1:1: the parameter \"count\" has no default: \"parameters\" or \"sweep\" must give it "
+            "(an integer from 1 to 9)");
+}
+
+TEST_F(FreezeTest, GivesAPointOneIdInWhateverFormItsValuesAreGiven) {
+  const std::string end = R"(, "parameters": {"scene": "yard", "camera": "gate"}})";
+  const auto ids = [&](const std::string& forms, const std::vector<std::string>& assignments = {}) {
+    Labels result;
+    const FrozenSweep sweep = frozen(R"({"experiment": "staged", )" + forms + end, {{}, 1e12, assignments});
+    for (const Point& p : sweep.points) result.push_back(p.id);
+    return result;
+  };
+  const Labels list = ids(R"("sweep": {"count": [1, 2, 3], "length": [0.1, 0.2, 0.3]})");
+  ASSERT_EQ(list.size(), 9u);
+  EXPECT_EQ(
+      ids(R"("sweep": {"count": {"from": 1, "to": 3, "step": 1}, "length": {"from": 0.1, "to": 0.3, "count": 3}})"),
+      list);
+  EXPECT_EQ(
+      ids(R"("sweep": {"count": [1, 2, 3]}, "points": [{"length": 0.1}, {"length": 0.2}, {"length": 0.3}])")
+          .size(),
+      9u);
+  EXPECT_EQ(
+      ids(R"("points": [{"count": 1}, {"count": 2}, {"count": 3}], "sweep": {"length": [0.1, 0.2, 0.3]})"),
+      list);
+  EXPECT_EQ(
+      ids(R"("points": [{"count": 1}, {"count": 2}, {"count": 3}], "scenes": {"yard": {"length": 0.2}})"),
+      (Labels{list[1], list[4], list[7]}));
+  EXPECT_EQ(
+      ids(R"("sweep": {"count": [1]})", {"count=1,2,3", R"(length={"from": 0.1, "to": 0.3, "step": 0.1})"}),
+      list);
+  EXPECT_EQ(ids(R"("sweep": {"count": [1, 2, 3], "length": {"from": 0.3, "to": -0.0, "step": -0.3}})"),
+            ids(R"("sweep": {"count": [1, 2, 3], "length": [0.3, 0]})"))
+      << "-0 is 0";
+}
+
+TEST_F(FreezeTest, FiltersByAnyOfSeveralValuesAndByWhatPointsGive) {
+  const std::string text =
+      R"({"experiment": "toy", "points": [{"count": 1, "length": 2}, {"count": 2, "length": 0.3},
+    {"count": 3}], "sweep": {"loud": [false, true]}})";
+  EXPECT_EQ(labels(text, {{"count=1,3", "loud=true"}}),
+            (Labels{"count=1 length=2 loud=true", "count=3 length=0.5 loud=true"}));
+  EXPECT_EQ(labels(text, {{R"(length={"from": 0.1, "to": 0.5, "step": 0.2})", "loud=true"}}),
+            (Labels{"count=2 length=0.3 loud=true", "count=3 length=0.5 loud=true"}));
+}
+
+TEST_F(FreezeTest, RefusesMorePointsThanAnybodyMeans) {
+  EXPECT_EQ(problem(R"({"experiment": "toy", "parameters": {"count": 1}, "sweep": {
+    "length": {"from": 1, "to": 10000, "count": 10000}, "loud": [false, true],
+    "behaviour": ["plain", "throw", "nan", "sleep"], "resolution": ["1x1", "2x2"]}})"),
+            "c.json: it has 160000 points; expected at most 100000");
 }
 
 TEST_F(FreezeTest, FiltersTheCamerasThatAStarStandsFor) {

@@ -1,44 +1,20 @@
 #include "harness/sweep/run_sweep.h"
 
-#include "harness/sweep/manifest.h"
 #include "harness/table/csv.h"
-#include "tests/harness/support/toy_experiment.h"
-#include "tests/temporary_folder.h"
+#include "tests/harness/support/toy_run.h"
 
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 namespace hybray {
 namespace {
 
-class RunSweepTest : public ::testing::Test {
- protected:
-  RunSweepTest() : catalog_([](const std::string&) { return SceneState::unknown; }, {}) {}
-
-  RunResult run(const std::string& text, bool timing = true, size_t stop_after = 1000) {
-    config_ = load_config(folder_.write("c.json", text), experiments_);
-    sweep_ = freeze(config_, catalog_);
-    Workspace workspace({{}, folder_.path(), 1, timing, 0});
-    size_t finished = 0;
-    failures_.clear();
-    return run_sweep(config_, sweep_, workspace,
-                     {[](size_t, const Point&) {}, [&](size_t, const Point&) { ++finished; },
-                      [&](size_t, const Point&, const std::string& message) { failures_.push_back(message); },
-                      [&] { return finished >= stop_after; }});
-  }
-
-  const test::TemporaryFolder folder_;
-  const std::vector<Experiment> experiments_ = test::toy_experiments();
-  SceneCatalog catalog_;
-  Config config_;
-  FrozenSweep sweep_;
-  std::vector<std::string> failures_;
-};
+class RunSweepTest : public test::ToyRunTest {};
 
 TEST_F(RunSweepTest, WritesARowForEveryPointInFrozenOrder) {
   const RunResult result = run(R"({"experiment": "toy", "sweep": {"count": [3, 1, 2]}})");
   EXPECT_EQ(result.done, 3u);
-  const CsvTable table = read_csv(folder_ / "c.csv");
+  EXPECT_EQ(result.reused, 0u);
+  const CsvTable table = read_csv(folder_ / "out/c.csv");
   EXPECT_EQ(table.header, (std::vector<std::string>{"id", "count", "doubled_m", "note", "absent", "toy_ms"}));
   ASSERT_EQ(table.rows.size(), 3u);
   EXPECT_EQ(table.rows[0],
@@ -54,59 +30,72 @@ TEST_F(RunSweepTest, GoesOnAfterAPointThatFails) {
   EXPECT_EQ(result.failed, 2u);
   EXPECT_EQ(failures_, (std::vector<std::string>{
                            "the toy broke", "column \"doubled_m\" came out as a number that is not finite"}));
-  const CsvTable table = read_csv(folder_ / "c.csv");
+  const CsvTable table = read_csv(folder_ / "out/c.csv");
   ASSERT_EQ(table.rows.size(), 2u);
   EXPECT_EQ(table.rows[0][0], sweep_.points[0].id);
   EXPECT_EQ(table.rows[1][0], sweep_.points[3].id);
 }
 
 TEST_F(RunSweepTest, LeavesTimeColumnsEmptyWithoutTiming) {
-  run(R"({"experiment": "toy", "parameters": {"count": 1}})", false);
-  EXPECT_EQ(read_csv(folder_ / "c.csv").rows.at(0).at(5), "");
+  run(R"({"experiment": "toy", "parameters": {"count": 1}})", {.timing = false});
+  EXPECT_EQ(read_csv(folder_ / "out/c.csv").rows.at(0).at(5), "");
 }
 
 TEST_F(RunSweepTest, KeepsTheRowsOfAStoppedRunAndTheTableOfAnEarlierOne) {
-  folder_.write("c.csv", "old\n");
-  const RunResult result = run(R"({"experiment": "toy", "sweep": {"count": [1, 2, 3]}})", true, 2);
+  folder_.write("out/c.csv", "old\n");
+  const RunResult result = run(R"({"experiment": "toy", "sweep": {"count": [1, 2, 3]}})", {.stop_after = 2});
   EXPECT_TRUE(result.stopped);
-  EXPECT_EQ(result.table, folder_ / "c.csv.partial");
-  EXPECT_EQ(read_csv(folder_ / "c.csv.partial").rows.size(), 2u);
-  EXPECT_EQ(test::content_of(folder_ / "c.csv"), "old\n");
+  EXPECT_EQ(result.table, folder_ / "out/c.csv.partial");
+  EXPECT_EQ(read_csv(folder_ / "out/c.csv.partial").rows.size(), 2u);
+  EXPECT_EQ(content("out/c.csv"), "old\n");
 }
 
 TEST_F(RunSweepTest, IsNotStoppedByAWishThatComesAfterTheLastPoint) {
-  EXPECT_FALSE(run(R"({"experiment": "toy", "sweep": {"count": [1, 2]}})", true, 2).stopped);
-  EXPECT_EQ(read_csv(folder_ / "c.csv").rows.size(), 2u);
+  EXPECT_FALSE(run(R"({"experiment": "toy", "sweep": {"count": [1, 2]}})", {.stop_after = 2}).stopped);
+  EXPECT_EQ(read_csv(folder_ / "out/c.csv").rows.size(), 2u);
 }
 
-TEST_F(RunSweepTest, KeepsTheTableOfAnEarlierRunWhenEveryPointFails) {
-  folder_.write("c.csv", "old\n");
-  const RunResult result = run(R"({"experiment": "toy", "parameters": {"count": 1, "behaviour": "throw"}})");
-  EXPECT_EQ(result.failed, 1u);
-  EXPECT_EQ(test::content_of(folder_ / "c.csv"), "old\n");
+TEST_F(RunSweepTest, IsStoppedBeforeItsFirstPointByAWishThatCameEarlier) {
+  EXPECT_TRUE(run(R"({"experiment": "toy", "sweep": {"count": [1, 2]}})", {.stop_after = 0}).stopped);
+  EXPECT_EQ(computed_.size(), 0u);
+  EXPECT_EQ(files(), std::vector<std::string>{}) << "nothing was done, nothing is left";
 }
 
-TEST_F(RunSweepTest, PutsIntoTheManifestWhatMadeTheTable) {
-  const RunResult result = run(
-      R"({"experiment": "toy", "title": "T", "seed": 4, "parameters": {"loud": true}, "sweep": {"count": [1, 2]}})");
-  const auto manifest =
-      nlohmann::json::parse(manifest_text(config_, sweep_, result, {{"loud=true"}, {}, true, 2}));
-  EXPECT_EQ(manifest["config"]["file"], "c.json") << "without its folder";
-  EXPECT_EQ(manifest["config"]["experiment"], "toy");
-  EXPECT_EQ(manifest["config"]["seed"], 4);
-  EXPECT_EQ(manifest["config"]["parameters"]["loud"], true);
-  EXPECT_EQ(manifest["config"]["parameters"]["length"], 0.5) << "defaults are written out";
-  EXPECT_EQ(manifest["config"]["sweep"]["count"], (nlohmann::json{1, 2}));
-  EXPECT_EQ(manifest["config"]["set"], nlohmann::json{"loud=true"});
-  EXPECT_EQ(manifest["run"]["points"], 2);
-  EXPECT_EQ(manifest["run"]["points_done"], 2);
-  EXPECT_EQ(manifest["run"]["complete"], true);
-  EXPECT_EQ(manifest["run"]["threads"], 2);
-  EXPECT_GE(manifest["run"]["wall_time_s"], 0.0);
-  EXPECT_TRUE(manifest["program"]["git_commit"] == "unknown" ||
-              manifest["program"]["git_commit"].get<std::string>().size() == 40);
-  EXPECT_TRUE(manifest["program"]["libraries"]["Embree"].get<std::string>().find('.') != std::string::npos);
-  EXPECT_NE(manifest["machine"]["cpu"], "");
+TEST_F(RunSweepTest, TriesOnlyTheFailedPointsAgain) {
+  const std::string config =
+      R"({"experiment": "toy", "parameters": {"count": 1}, "sweep": {"behaviour": ["plain", "fragile", "sleep"]}})";
+  folder_.write("out/hammer", "");
+  EXPECT_EQ(run(config).failed, 1u);
+  EXPECT_EQ(run(config).failed, 1u) << "a failed point does not count as done";
+  EXPECT_EQ(computed_.size(), 0u);
+  std::filesystem::remove(folder_ / "out/hammer");
+  const RunResult result = run(config);
+  EXPECT_EQ(result.failed, 0u);
+  EXPECT_EQ(result.done, 3u);
+  EXPECT_EQ(result.reused, 2u);
+  EXPECT_EQ(computed_, std::vector<std::string>{sweep_.points[1].id});
+  EXPECT_EQ(read_csv(folder_ / "out/c.csv").rows.at(1).at(0), sweep_.points[1].id) << "in frozen order";
+}
+
+TEST_F(RunSweepTest, LeavesNothingBehindWhenEveryPointFails) {
+  const std::string config = R"({"experiment": "toy", "parameters": {"count": 1, "behaviour": "throw"}})";
+  EXPECT_EQ(run(config).failed, 1u);
+  EXPECT_EQ(files(), std::vector<std::string>{});
+  folder_.write("out/c.csv", "old\n");
+  EXPECT_EQ(run(config).failed, 1u);
+  EXPECT_EQ(files(), std::vector<std::string>{"c.csv"});
+  EXPECT_EQ(content("out/c.csv"), "old\n");
+}
+
+TEST_F(RunSweepTest, PutsPointsRangesAndOverridesIntoTheManifest) {
+  const RunResult result = run(R"({"experiment": "toy", "points": [{"count": 1}, {"count": 2, "loud": true}],
+    "sweep": {"length": {"from": 1, "to": 2, "step": 0.5}}})");
+  EXPECT_EQ(result.done, 6u);
+  const auto config = nlohmann::json::parse(content("out/manifest.json"))["config"];
+  EXPECT_EQ(config["points"], nlohmann::json::parse(R"([{"count": 1}, {"count": 2, "loud": true}])"));
+  EXPECT_EQ(config["sweep"]["length"], (nlohmann::json{1.0, 1.5, 2.0})) << "as the values that it came to";
+  EXPECT_FALSE(config["parameters"].contains("count")) << "every point gives it";
+  EXPECT_EQ(config["parameters"]["loud"], false) << "what the first point leaves out";
 }
 
 }  // namespace

@@ -34,6 +34,25 @@ TEST(Csv, ReadsATableWithoutALastLineEnd) {
   EXPECT_EQ(parse_csv("a,b\n1,2", "t.csv").rows, (std::vector<Cells>{{"1", "2"}}));
 }
 
+TEST(Csv, ReadsTheWholeRowsOfATornText) {
+  const std::string text =
+      csv_line(Cells{"a", "b"}) + csv_line(Cells{"1", "x\ny"}) + csv_line(Cells{"2", "\"\n"});
+  const size_t first = 4 + 8;  // bytes up to the end of the first row
+  for (size_t length = 0; length <= text.size(); ++length) {
+    const CsvTable table = parse_whole_rows(text.substr(0, length));
+    EXPECT_EQ(table.header, length < 4 ? Cells{} : (Cells{"a", "b"})) << length;
+    EXPECT_EQ(table.rows.size(), length < first ? 0u : length < text.size() ? 1u : 2u) << length;
+  }
+}
+
+TEST(Csv, ReadsNoRowBeyondOneThatIsDamaged) {
+  const auto rows = [](const std::string& text) { return parse_whole_rows("a,b\n1,2\n" + text).rows.size(); };
+  EXPECT_EQ(rows("3,4\n"), 2u);
+  EXPECT_EQ(rows("3\n5,6\n"), 1u);
+  EXPECT_EQ(rows("3,\"4\"x\n5,6\n"), 1u);
+  EXPECT_EQ(rows(std::string(4096, '\0') + "\n5,6\n"), 1u) << "as a loss of power may leave it";
+}
+
 TEST(Csv, ReadsBackWhatItWrites) {
   const Cells cells{"", "\"", "\"\"", ",", "\n", "\r\n", "plain", "a\"b,c\nd"};
   EXPECT_EQ(parse_csv(csv_line(cells) + csv_line(cells), "t.csv").rows, std::vector<Cells>{cells});

@@ -3,7 +3,11 @@
 #include "core/base/error.h"
 #include "tests/temporary_folder.h"
 
+#include <csignal>
+#include <ctime>
+
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 namespace hybray {
 namespace {
@@ -42,6 +46,45 @@ TEST(Files, MakesAnOutputFolderAndLeavesNothingInIt) {
   const test::TemporaryFolder folder;
   make_writable_folder(folder / "a/b");
   EXPECT_TRUE(std::filesystem::is_empty(folder / "a/b"));
+}
+
+TEST(Files, ProvesThatSoManyBytesFitIntoAnOutputFolder) {
+  const test::TemporaryFolder folder;
+  make_writable_folder(folder / "a", 100000);
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "a"));
+  rlimit old = {};
+  getrlimit(RLIMIT_FSIZE, &old);
+  const rlimit limit{50000, old.rlim_max};
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  setrlimit(RLIMIT_FSIZE, &limit);
+  const std::string message =
+      test::message_of<InputError>([&] { make_writable_folder(folder / "a", 100000); });
+  setrlimit(RLIMIT_FSIZE, &old);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(message,
+            (folder / "a").string() +
+                ": the output folder cannot be written to: File too large (about 100000 bytes are needed)");
+  EXPECT_TRUE(std::filesystem::is_empty(folder / "a"));
+}
+
+TEST(Files, RemovesWhatAKilledProgramHadBegunToWriteAndNothingElse) {
+  const test::TemporaryFolder folder;
+  for (const char* name :
+       {"t.csv.4711.tmp", "manifest.json.1.tmp", "t.csv", "my.tmp", "4711.tmp", "x.47a.tmp"})
+    folder.write(name, "x");
+  remove_unfinished_files(folder.path());
+  for (const char* name : {"t.csv", "my.tmp", "4711.tmp", "x.47a.tmp"})
+    EXPECT_TRUE(std::filesystem::exists(folder / name)) << name;
+  for (const char* name : {"t.csv.4711.tmp", "manifest.json.1.tmp"})
+    EXPECT_FALSE(std::filesystem::exists(folder / name)) << name;
+}
+
+TEST(Files, KnowsWhenAFileWasLastWritten) {
+  const test::TemporaryFolder folder;
+  const double before = static_cast<double>(time(nullptr));
+  EXPECT_GE(modified_unix_s(folder.write("f", "x")), before - 1);  // file systems round their clocks
+  EXPECT_LE(modified_unix_s(folder / "f"), before + 60);
+  EXPECT_EQ(modified_unix_s(folder / "absent"), 0);
 }
 
 TEST(Files, RefusesAnOutputFolderBelowARegularFile) {

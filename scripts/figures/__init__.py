@@ -1,0 +1,1 @@
+"""What scripts/figures.py draws: one module for each kind of figure."""

@@ -1,0 +1,32 @@
+"""Groups the rows of a table by the parameters that tell them apart."""
+
+from collections import defaultdict
+from collections.abc import Iterable
+
+from csv_table import Row
+
+# Parameters of the experiments, as columns. Columns that a table does not have are passed over.
+KEYS = ("scene", "camera", "width", "height", "near_m", "depth_convention", "derivatives", "marcher", "step_budget",
+        "footprint_factor", "caustics", "map_resolution", "rays_per_texel", "mirror_depth", "lights_visible", "lights_invisible",
+        "emission", "first_surface", "visibility", "mixed", "gather_radius", "camera_paths", "roulette_threshold", "filter",
+        "threads")
+Group = tuple[tuple[str, str], ...]
+
+
+def varying(rows: list[Row], keys: Iterable[str]) -> list[str]:
+    """The keys that tell rows apart: not those that a scene fixes, such as the number of its lights."""
+    scenes: dict[str, list[Row]] = defaultdict(list)
+    for row in rows:
+        scenes[row.get("scene", "")].append(row)
+    return [k for k in keys if k in rows[0]
+            and (len(scenes) > 1 if k == "scene" else any(len({row[k] for row in members}) > 1 for members in scenes.values()))]
+
+
+def groups_of(rows: list[Row], varied: Iterable[str], keys: Iterable[str] = KEYS) -> dict[Group, list[Row]]:
+    """Rows that differ in the varied parameters alone, by those of the others that tell rows apart."""
+    varied = set(varied)
+    keys = [k for k in varying(rows, keys) if k not in varied]
+    groups: dict[Group, list[Row]] = defaultdict(list)
+    for row in rows:
+        groups[tuple((k, row[k]) for k in keys)].append(row)
+    return dict(groups)

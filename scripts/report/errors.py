@@ -1,0 +1,5 @@
+"""What is wrong with the inputs, in one sentence that names the place."""
+
+
+class InputError(Exception):
+    pass

@@ -1,0 +1,150 @@
+#!/usr/bin/python3
+"""Tests scripts/figures.py: the same bytes each time, what it skips, what it refuses, and what the readings say."""
+
+import json
+import os
+import re
+import tempfile
+import unittest
+import xml.dom.minidom
+from pathlib import Path
+
+from synthetic import CAUSTICS, SSRM, changed, lights, rays, run, write
+
+import matplotlib  # noqa: E402  (after synthetic: it says where the scripts are)
+
+matplotlib.use("Agg")
+from matplotlib import pyplot as plt  # noqa: E402
+
+
+class Figures(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.root = Path(self.folder.name)
+
+    def everything(self) -> None:
+        ssrm = [changed(SSRM, scene=s, camera=c, width=w, height=h, alpha=a, t_ss_ms=w / 100, id=f"{s}{c}{w}")
+                for s in ("sphere", "street") for c, a in (("front", 0.3), ("side", 0.4)) for w, h in ((1280, 720), (1920, 1080))]
+        write(self.root, "ssrm_tables", ssrm)
+        write(self.root, "ssrm_derivatives", [changed(SSRM, derivatives=d, precision=p)
+                                              for d, p in (("plane", 1), ("difference", 0.7))])
+        write(self.root, "caustics_rays_objects", rays() + [changed(r, scene="wine_glass", at_floor="true") for r in rays()])
+        write(self.root, "caustics_depth_objects", [changed(CAUSTICS, mirror_depth=d, total_ms=d + 3) for d in (1, 2, 3, 4)])
+        write(self.root, "caustics_lights", lights())
+        write(self.root, "caustics_onoff", [CAUSTICS])
+        self.picture("ssrm_tables", "sphere_front_1280x720_spherefront1280.png")
+        for kind in ("off", "on"):
+            self.picture("caustics_onoff", f"glass_ball_front_320x180_0_{kind}.png")
+        (self.root / "caustics_lights" / "manifest.json").write_text(json.dumps({"machine": {"cpu": "A CPU"}}))
+
+    def picture(self, name: str, file: str) -> None:
+        (self.root / name / "pictures").mkdir(exist_ok=True)
+        plt.imsave(self.root / name / "pictures" / file, [[[0.2, 0.4, 0.6]] * 16] * 9)
+
+    def test_the_same_tables_give_the_same_bytes(self):
+        self.everything()
+        outputs = []
+        for seed in ("1", "2"):
+            output = self.root / f"figures{seed}"
+            done = run("figures.py", self.root, "-o", output, env=os.environ | {"PYTHONHASHSEED": seed})
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(done.stderr, "")
+            outputs.append({path.name: path.read_bytes() for path in output.iterdir()})
+        self.assertEqual(outputs[0].keys(), outputs[1].keys())
+        for name, content in outputs[0].items():
+            self.assertEqual(content, outputs[1][name], name)
+        for name in ("ssrm_times", "ssrm_verdicts", "ssrm_alpha", "ssrm_precision_recall", "caustics_onoff", "caustics_rays_objects",
+                     "caustics_depth_objects", "caustics_lights", "time_error_ssrm_tables", "time_error_caustics_rays_objects"):
+            pdf, svg, png = (outputs[0][f"{name}.{kind}"] for kind in ("pdf", "svg", "png"))
+            self.assertTrue(pdf.startswith(b"%PDF-") and png.startswith(b"\x89PNG"), name)
+            self.assertNotIn(b"/CreationDate", pdf)
+            self.assertNotIn(b"/Type3", pdf)
+            self.assertNotIn(b"dc:date", svg)
+            xml.dom.minidom.parseString(svg)
+        self.assertIn(b"A CPU", self.text_of(outputs[0]["caustics_lights.svg"]))
+
+    @staticmethod
+    def text_of(svg: bytes) -> bytes:
+        """SVG keeps the text of its glyph outlines in comments."""
+        return b"\n".join(re.findall(rb"<!-- (.*?) -->", svg))
+
+    def test_a_second_run_leaves_its_own_output_out(self):
+        write(self.root, "ssrm_tables", [SSRM])
+        self.assertEqual(run("figures.py", self.root, "--only", "ssrm_tables").returncode, 0)
+        (self.root / "figures" / "ssrm_tables.csv").write_text("not,a,result\n")
+        self.assertEqual(run("figures.py", self.root, "--only", "ssrm_tables").returncode, 0)
+
+    def test_says_what_it_skips_and_why(self):
+        write(self.root, "quickstart", [SSRM])
+        done = run("figures.py", self.root)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("made     ssrm_tables: ssrm_tables (txt, tex)\n", done.stdout)
+        self.assertIn(f"skipped  caustics_lights: no caustics_lights.csv in {self.root}\n", done.stdout)
+        self.assertIn("skipped  ssrm_verdicts: no pictures beside", done.stdout)
+        self.assertEqual(len(re.findall(r"^(made|skipped) ", done.stdout, re.MULTILINE)), 12)
+        self.assertFalse(list((self.root / "figures").glob("caustics*")))
+
+    def test_names_file_and_column_and_draws_the_others(self):
+        write(self.root, "ssrm_tables", [SSRM])
+        without = [{k: v for k, v in row.items() if k != "relmse_low"} for row in rays()]
+        path = write(self.root, "caustics_rays_objects", without)
+        done = run("figures.py", self.root, "--only", "caustics_rays_objects", "--only", "ssrm_tables")
+        self.assertEqual(done.returncode, 2)
+        self.assertEqual(done.stderr, f"figures: caustics_rays_objects: {path}: column relmse_low is missing\n")
+        self.assertIn("made     ssrm_tables", done.stdout)
+        path = write(self.root, "caustics_rays_objects", [*rays(), changed(CAUSTICS, total_ms="long")])
+        done = run("figures.py", self.root, "--only", "caustics_rays_objects")
+        self.assertEqual((done.returncode, done.stderr), (
+            2, f"figures: caustics_rays_objects: {path}:12: column total_ms: 'long' is not a finite number\n"))
+
+    def test_reads_equal_time_and_equal_error(self):
+        write(self.root, "caustics_rays_objects", rays())
+        self.assertEqual(run("figures.py", self.root, "--only", "time_error*").returncode, 0)
+        text = (self.root / "figures" / "time_error_caustics_rays_objects.txt").read_text()
+        cells = [re.split(r"\s{2,}", line.strip()) for line in text.splitlines()]
+        # The paper's setting, one ray and no filter, takes 10 ms for an error of 100. With the filter half a ray takes 6 ms for
+        # an error of 50, one ray 11 ms; a quarter of a ray takes 3.5 ms for an error of 100.
+        self.assertIn(["glass ball", "filter none, 1", "10", "100"], cells)
+        self.assertIn(["filter none", "× 1 (1)", "× 1 (1)"], cells)
+        self.assertIn(["filter wavelet", "× 0.5 (0.5)", "× 0.35 (0.25)"], cells)
+        latex = (self.root / "figures" / "time_error_caustics_rays_objects.tex").read_text()
+        self.assertIn(r"\quad filter wavelet &  &  &  & $\times$ 0.5 (0.5) & $\times$ 0.35 (0.25) \\", latex)
+
+    def test_compares_settings_of_one_problem_only(self):
+        slow = [changed(r, width=640, height=360, total_ms=1000) for r in rays()]
+        write(self.root, "caustics_rays", rays() + slow)
+        self.assertEqual(run("figures.py", self.root, "--only", "time_error*").returncode, 0)
+        text = (self.root / "figures" / "time_error_caustics_rays.txt").read_text()
+        self.assertRegex(text, r"glass ball, 320, 180 +filter none, 1 +10 +100")
+        self.assertRegex(text, r"glass ball, 640, 360 +filter none, 1 +1e\+03 +100")
+
+    def test_refuses_what_it_cannot_choose_between(self):
+        path = write(self.root, "ssrm_tables", [SSRM])
+        other = path.rename(self.root / "ssrm_tables.csv")
+        write(self.root, "ssrm_tables", [SSRM])
+        done = run("figures.py", self.root)
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertEqual(done.stderr, f"figures: {self.root}: two tables are named ssrm_tables.csv: {path} and {other}\n")
+
+    def test_refuses_wrong_arguments(self):
+        write(self.root, "ssrm_tables", [SSRM])
+        done = run("figures.py", self.root, "--only", "figure_9")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--only figure_9: no such figure; there are ssrm_tables, ", done.stderr)
+        done = run("figures.py", self.root / "nowhere")
+        self.assertEqual((done.returncode, done.stderr), (
+            2, f"figures: {self.root / 'nowhere'}: no such folder; `hybray run` makes one\n"))
+
+    def test_says_which_package_is_missing(self):
+        done = run("figures.py", interpreter=["/usr/bin/python3", "-S"])  # without Debian's packages
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("matplotlib is missing; scripts/setup.sh installs it", done.stderr)
+
+    def test_quickstart_tables_need_no_packages(self):
+        path = write(self.root, "quickstart", [SSRM])
+        self.assertEqual(run("tables.py", path, interpreter=["/usr/bin/python3", "-S"]).returncode, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
