@@ -10,9 +10,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from csv_table import Row, Table, TableError, number, read_table
+from csv_table import Row, Table, number, read_table
 from fitting import Vector, f_tail, least_squares, quantile, squares
 from grouping import Group, groups_of
+from inputs import InputError
 from text_table import TextTable
 
 PAPER = Path(__file__).resolve().parent.parent / "results" / "paper" / "caustics.csv"
@@ -85,7 +86,7 @@ def light_cost(rows: list[Row]) -> LightCost | None:
 
 def paper_numbers() -> dict[str, float]:
     """What the caustics paper prints, by quantity."""
-    return {row["quantity"]: number(row, "value") for row in read_table(PAPER, "quantity", "value").rows}
+    return {row["quantity"]: number(row, "value") for row in read_table(PAPER).need("quantity", "value").rows}
 
 
 def light_groups(rows: list[Row]) -> dict[Group, list[Row]]:
@@ -166,8 +167,8 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("table", type=Path, help="CSV written by `hybray run` of a caustics config")
     try:
-        return report(read_table(parser.parse_args().table, *NEEDED))
-    except TableError as error:
+        return report(read_table(parser.parse_args().table).need(*NEEDED))
+    except InputError as error:
         print(f"caustics_fit: {error}", file=sys.stderr)
         return 2
 
@@ -175,7 +176,7 @@ def main() -> int:
 def report(table: Table) -> int:
     rows = [r for r in table.rows if r.get("caustics") != "false"]  # of the main view alone
     if not rows:
-        raise TableError(f"{table.path}: no point has caustics")
+        raise InputError(f"{table.path}: no point has caustics")
     print(f"{len(rows)} points. Times of other machines do not compare; the ratio b / a does.")
     groups = light_groups(rows)
     for group, members in groups.items():

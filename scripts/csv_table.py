@@ -1,13 +1,12 @@
 """Reads the CSV tables that hybray writes, and says what is wrong with one: which file, which line, which column."""
 
 import csv
+import io
 import math
 from dataclasses import dataclass
 from pathlib import Path
 
-
-class TableError(Exception):
-    """A table that cannot be used. The message names the file and, where there is one, the column."""
+from inputs import InputError, read_text
 
 
 class Row(dict[str, str]):
@@ -22,41 +21,52 @@ class Table:
     columns: tuple[str, ...]
     rows: list[Row]
 
-    def need(self, *columns: str) -> None:
+    def need(self, *columns: str) -> "Table":
+        """The table itself; an InputError where it has no row, or no such column."""
         for column in columns:
             if column not in self.columns:
-                raise TableError(f"{self.path}: column {column} is missing")
+                raise InputError(f"{self.path}: column {column} is missing")
+        if not self.rows:
+            raise InputError(f"{self.path}: no rows")
+        return self
 
     def filled(self, column: str) -> bool:
         """Whether any row has something in the column."""
         return any(row.get(column) for row in self.rows)
 
 
-def read_table(path: Path, *needed: str) -> Table:
-    """The table of a file; a TableError where it is unreadable, has no row, rows of a wrong length or no such column."""
+def read_table(path: Path, growing: bool = False) -> Table:
+    """The table of a file. The last line of a growing one may be torn, and is then left out."""
+    text = read_text(path)
+    if growing:
+        text = text[:text.rfind("\n") + 1]
+    reader = csv.reader(io.StringIO(text, newline=""), strict=True)
     try:
-        with path.open(newline="", encoding="utf-8") as file:
-            reader = csv.reader(file, strict=True)
-            columns = tuple(next(reader, ()))
-            rows = []
-            for cells in reader:
-                if len(cells) != len(columns):
-                    raise TableError(f"{path}:{reader.line_num}: {len(cells)} cells where the header has {len(columns)}")
-                row = Row(zip(columns, cells))
-                row.place = f"{path}:{reader.line_num}"
-                rows.append(row)
-    except OSError as error:
-        raise TableError(f"{path}: {error.strerror}") from error
-    except (UnicodeDecodeError, csv.Error) as error:
-        raise TableError(f"{path}: not a CSV table ({error})") from error
+        columns = tuple(next(reader, ()))
+        rows = []
+        for cells in reader:
+            place = f"{path}:{reader.line_num}"
+            if len(cells) != len(columns):
+                raise InputError(f"{place}: {len(cells)} cells where the header has {len(columns)}")
+            row = Row(zip(columns, cells))
+            row.place = place
+            rows.append(row)
+    except csv.Error as error:
+        raise InputError(f"{path}:{reader.line_num}: not CSV: {error}") from error
+    if not columns:
+        raise InputError(f"{path}: empty, not even a header")
     repeated = next((c for i, c in enumerate(columns) if c in columns[:i]), None)
     if repeated is not None:
-        raise TableError(f"{path}: column {repeated} is there twice")
-    table = Table(path, columns, rows)
-    table.need(*needed)
-    if not rows:
-        raise TableError(f"{path}: no rows")
-    return table
+        raise InputError(f"{path}:1: column {repeated} is there twice")
+    return Table(path, columns, rows)
+
+
+def is_number(cell: str) -> bool:
+    """Whether a cell holds a finite number."""
+    try:
+        return math.isfinite(float(cell))
+    except ValueError:
+        return False
 
 
 def number(row: Row, column: str) -> float | None:
@@ -64,18 +74,14 @@ def number(row: Row, column: str) -> float | None:
     cell = row.get(column)
     if not cell:
         return None
-    try:
-        value = float(cell)
-    except ValueError:
-        value = math.nan
-    if not math.isfinite(value):
-        raise TableError(f"{row.place}: column {column}: '{cell}' is not a finite number")
-    return value
+    if not is_number(cell):
+        raise InputError(f"{row.place}: column {column}: '{cell}' is not a finite number")
+    return float(cell)
 
 
 def whole(row: Row, column: str) -> int:
     """The whole number of a cell that must have one."""
     value = number(row, column)
     if value is None or value != int(value):
-        raise TableError(f"{row.place}: column {column}: '{row.get(column, '')}' is not a whole number")
+        raise InputError(f"{row.place}: column {column}: '{row.get(column, '')}' is not a whole number")
     return int(value)

@@ -14,9 +14,9 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 
 try:
-    from csv_table import TableError
     from figures import caustics, pictures, ssrm, time_error
     from figures.results import Results, Skip
+    from inputs import InputError
 except ModuleNotFoundError as missing:
     print(f"figures: Python's {missing.name} is missing; scripts/setup.sh installs it for /usr/bin/python3", file=sys.stderr)
     sys.exit(2)
@@ -62,12 +62,9 @@ def main() -> int:
     parser.add_argument("--only", action="append", default=[], metavar="NAME", help="only this figure; * stands for anything")
     arguments = parser.parse_args()
     folder = arguments.output or arguments.results / "figures"
-    if not arguments.results.is_dir():
-        print(f"figures: {arguments.results}: no such folder; `hybray run` makes one", file=sys.stderr)
-        return 2
     failed = False
     try:
-        results = Results(arguments.results, leave_out=folder)
+        results = Results(arguments.results)
         figures = all_figures(results)
         names = chosen(list(figures), arguments.only)
         folder.mkdir(parents=True, exist_ok=True)
@@ -79,11 +76,11 @@ def main() -> int:
                 print(f"made     {name}: {', '.join(files)}")
             except Skip as reason:
                 print(f"skipped  {name}: {reason}")
-            except TableError as error:
+            except InputError as error:
                 print(f"figures: {name}: {error}", file=sys.stderr)
                 failed = True
         print(f"in {shown(folder)}")
-    except TableError as error:
+    except InputError as error:
         print(f"figures: {error}", file=sys.stderr)
         return 2
     except OSError as error:

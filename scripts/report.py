@@ -5,12 +5,14 @@ import argparse
 import sys
 from pathlib import Path
 
-sys.dont_write_bytecode = True
-
-from report.errors import InputError  # noqa: E402
-from report.page import make_page  # noqa: E402
-
 ROOT = Path(__file__).resolve().parent.parent
+
+try:
+    from inputs import InputError
+    from report.page import make_page
+except ModuleNotFoundError as missing:
+    print(f"report: Python's {missing.name} is missing; scripts/setup.sh installs it for /usr/bin/python3", file=sys.stderr)
+    sys.exit(2)
 
 
 def positive(text: str) -> int:
@@ -50,6 +52,9 @@ def main() -> int:
         write(output, page)
     except InputError as error:
         print(f"report: {error}", file=sys.stderr)
+        return 2
+    except OSError as error:
+        print(f"report: {error.filename}: {error.strerror}", file=sys.stderr)
         return 2
     print(f"report: {output} ({len(page.encode()) / 1e6:.1f} MB)", file=sys.stderr)
     return 0

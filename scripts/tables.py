@@ -6,7 +6,8 @@ import sys
 from collections import defaultdict
 from pathlib import Path
 
-from csv_table import Row, Table, TableError, number, read_table, whole
+from csv_table import Row, Table, number, read_table, whole
+from inputs import InputError
 from text_table import TextTable
 
 PAPER = Path(__file__).resolve().parent.parent / "results" / "paper"
@@ -53,9 +54,9 @@ class Paper:
     """The paper's numbers, as it prints them, by scene and resolution."""
 
     def __init__(self) -> None:
-        self.table1 = {self.size(r): r for r in read_table(PAPER / "ssrm_table1.csv", "t_ss_ms", "t_ss_implied_ms").rows}
-        self.table2 = {(r["scene"], *self.size(r)): r["t_hw_ms"] for r in read_table(PAPER / "ssrm_table2.csv", "t_hw_ms").rows}
-        speedups = read_table(PAPER / "ssrm_table3.csv", "speedup_sequential", "alpha").rows
+        self.table1 = {self.size(r): r for r in read_table(PAPER / "ssrm_table1.csv").need("t_ss_ms", "t_ss_implied_ms").rows}
+        self.table2 = {(r["scene"], *self.size(r)): r["t_hw_ms"] for r in read_table(PAPER / "ssrm_table2.csv").need("t_hw_ms").rows}
+        speedups = read_table(PAPER / "ssrm_table3.csv").need("speedup_sequential", "alpha").rows
         self.table3 = {(r["scene"], *self.size(r)): r["speedup_sequential"] for r in speedups}
         self.alpha = speedups[0]["alpha"]  # the average that it states, the same in every row
 
@@ -120,9 +121,9 @@ def main() -> int:
     parser.add_argument("--latex", action="store_true", help="LaTeX, with booktabs, instead of text")
     arguments = parser.parse_args()
     try:
-        table = read_table(arguments.table, *NEEDED)
+        table = read_table(arguments.table).need(*NEEDED)
         print(as_latex(table) if arguments.latex else as_text(table), end="")
-    except TableError as error:
+    except InputError as error:
         print(f"tables: {error}", file=sys.stderr)
         return 2
     return 0

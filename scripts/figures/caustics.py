@@ -5,7 +5,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from caustics_fit import LightCost, light_cost, light_groups, paper_numbers
-from csv_table import Row, TableError, number
+from csv_table import Row, number
 from figures import style
 from figures.results import Result, Results, Skip
 from grouping import Group, groups_of
@@ -112,7 +112,7 @@ def draw_rays(results: Results, folder: Path, name: str) -> list[Path]:
     result, paper = results.get(name), paper_numbers()
     series = needed(result, "rays_per_texel")
     if not series:
-        raise TableError(f"{result.table.path}: column rays_per_texel: fewer than two values for any scene")
+        raise Skip(f"{result.table.path}: column rays_per_texel: fewer than two values for any scene")
     figure, axes = style.panels(1, 2, 2.7)
     relmse_panel(axes[0], series, "rays_per_texel")
     floored = floor_marks(axes[0], series, "rays_per_texel")
@@ -149,7 +149,7 @@ def draw_depth(results: Results, folder: Path, name: str) -> list[Path]:
     result, paper = results.get(name), paper_numbers()
     series = needed(result, "mirror_depth")
     if not series:
-        raise TableError(f"{result.table.path}: column mirror_depth: fewer than two values for any scene")
+        raise Skip(f"{result.table.path}: column mirror_depth: fewer than two values for any scene")
     figure, axes = style.panels(1, 3, 2.4)
     draw_series(axes[0], series, "mirror_depth", "energy_ratio",
                 lambda rows: bars(rows, "energy_ratio", "energy_ratio_low", "energy_ratio_high"))

@@ -1,12 +1,12 @@
 """The tables of one results folder, with their manifests and pictures."""
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from csv_table import Row, Table, TableError, read_table
+from csv_table import Row, Table, read_table
 from grouping import KEYS
+from inputs import InputError, part, read_manifest, run_folders
 
 
 class Skip(Exception):
@@ -31,13 +31,12 @@ class Result:
     @property
     def keys(self) -> list[str]:
         """The parameters, those of the config's sweep included, as columns."""
-        swept = self.manifest.get("config", {}).get("sweep", {})
-        return [k for k in dict.fromkeys([*KEYS, *swept]) if k in self.table.columns]
+        return [k for k in dict.fromkeys([*KEYS, *part(self.manifest, "config", "sweep")]) if k in self.table.columns]
 
     @property
     def machine(self) -> str:
         """What measured the times, for a legend."""
-        cpu = self.manifest.get("machine", {}).get("cpu", "")
+        cpu = str(part(self.manifest, "machine").get("cpu", ""))
         threads = self.rows[0].get("threads", "")
         return ", ".join(part for part in (cpu, f"{threads} threads" if threads else "") if part)
 
@@ -51,14 +50,12 @@ class Result:
 class Results:
     """The tables of a folder of runs, RESULTS/RUN/TABLE.csv, or of one run, RESULTS/TABLE.csv; read when they are asked for."""
 
-    def __init__(self, root: Path, leave_out: Path):
+    def __init__(self, root: Path):
         self.root = root
         self.paths: dict[str, Path] = {}
-        for path in sorted([*root.glob("*.csv"), *root.glob("*/*.csv")]):
-            if path.parent == leave_out:
-                continue
+        for path in sorted(path for folder in run_folders(root) for path in folder.glob("*.csv")):
             if path.stem in self.paths:
-                raise TableError(f"{root}: two tables are named {path.name}: {self.paths[path.stem]} and {path}")
+                raise InputError(f"{root}: two tables are named {path.name}: {self.paths[path.stem]} and {path}")
             self.paths[path.stem] = path
         self.read: dict[str, Result] = {}
 
@@ -67,23 +64,19 @@ class Results:
             raise Skip(f"no {name}.csv in {self.root}")
         if name not in self.read:
             path = self.paths[name]
-            self.read[name] = Result(read_table(path), manifest_beside(path))
+            self.read[name] = Result(read_table(path), read_manifest(path.parent / "manifest.json"))
+        if not self.read[name].rows:
+            raise Skip(f"{self.paths[name]} has no rows")
         return self.read[name]
 
     def any_of(self, names: Sequence[str]) -> list[Result]:
         """Those of the named tables that are there; Skip where none is."""
-        found = [self.get(name) for name in names if name in self.paths]
+        found, reasons = [], []
+        for name in names:
+            try:
+                found.append(self.get(name))
+            except Skip as reason:
+                reasons.append(str(reason))
         if not found:
-            raise Skip(f"no {' or '.join(f'{name}.csv' for name in names)} in {self.root}")
+            raise Skip("; ".join(reasons))
         return found
-
-
-def manifest_beside(path: Path) -> dict:
-    manifest = path.parent / "manifest.json"
-    try:
-        content = json.loads(manifest.read_text(encoding="utf-8")) if manifest.is_file() else {}
-    except (OSError, ValueError) as error:
-        raise TableError(f"{manifest}: not a manifest ({error})") from error
-    if not isinstance(content, dict):
-        raise TableError(f"{manifest}: not a manifest (not an object)")
-    return content

@@ -85,11 +85,11 @@ def draw_times(results: Results, folder: Path) -> list[Path]:
             ("time, ms", "time, ms", r"$T_{HW}\,/\,(T_{SS} + (1-\alpha)\,T_{HW})$", r"$T_{HW}\,/\,T_{hybrid}$")):
         against_size(axis, rows, column)
         axis.set(title=title, ylabel=label, xlabel="resolution, megapixels", xscale="log")
-    table1 = read_table(PAPER / "ssrm_table1.csv", "t_ss_ms").rows
+    table1 = read_table(PAPER / "ssrm_table1.csv").need("t_ss_ms").rows
     paper_line(axes[0], [megapixels(r) for r in table1], [number(r, "t_ss_ms") for r in table1], "D", "all scenes")
     for axis, file, column in ((axes[1], "ssrm_table2.csv", "t_hw_ms"), (axes[2], "ssrm_table3.csv", "speedup_sequential")):
         for scene, marker in PAPER_MARKERS.items():
-            lines = [r for r in read_table(PAPER / file, "scene", column).rows if r["scene"] == scene]
+            lines = [r for r in read_table(PAPER / file).need("scene", column).rows if r["scene"] == scene]
             paper_line(axis, [megapixels(r) for r in lines], [number(r, column) for r in lines], marker, scene)
     ticks = sorted({megapixels(r) for r in [*rows, *table1]})
     for axis in axes:
@@ -118,7 +118,7 @@ def draw_alpha(results: Results, folder: Path) -> list[Path]:
     rows = [r for r in of_size(result.rows, size) if number(r, "alpha") is not None]
     if not rows:
         raise Skip(f"{result.table.path} has no alpha")
-    paper = number(read_table(PAPER / "ssrm_table3.csv", "alpha").rows[0], "alpha")
+    paper = number(read_table(PAPER / "ssrm_table3.csv").need("alpha").rows[0], "alpha")
     scenes = scenes_of(rows)
     named = len(rows) <= MOST_NAMED_CAMERAS
     height = 0.145 * len(rows) + 0.1 * len(scenes) if named else 0.5 * len(scenes)

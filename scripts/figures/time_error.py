@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from caustics_fit import paper_numbers
-from csv_table import Row, number, whole
+from csv_table import Row, is_number, number
 from figures import style
 from figures.pareto import Setting, fastest_within, front, most_exact_within
 from figures.results import Result, Results, Skip
@@ -138,14 +138,6 @@ def mean_setting(name: str, value: str, mark: str, rows: list[Row], columns: tup
     time, error = sum(times) / len(times), sum(errors) / len(errors)
     return Setting(name, value, time, error, (time - min(times), max(times) - time), (error - min(errors), max(errors) - error),
                    mark)
-
-
-def is_number(cell: str) -> bool:
-    try:
-        float(cell)
-    except ValueError:
-        return False
-    return True
 
 
 def middle(settings: list[Setting]) -> Setting:

@@ -6,7 +6,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
-from report.errors import InputError
+from csv_table import is_number
+from inputs import InputError
 
 # Columns to show first of the experiments that are known, in this order; each where it has values.
 HEADLINES = {
@@ -56,10 +57,6 @@ def describe(program: Path, experiment: str) -> list[Column]:
     if done.returncode != 0:
         raise InputError(f"{' '.join(command)}: {done.stderr.strip() or f'exit code {done.returncode}'}")
     return parse_description(done.stdout)
-
-
-def is_number(text: str) -> bool:
-    return re.fullmatch(r"[-+]?(\d+(\.\d*)?|\.\d+)([eE][-+]?\d+)?", text) is not None
 
 
 def guessed(name: str, values: Iterable[str], parameters: Iterable[str]) -> Column:

@@ -4,7 +4,7 @@ import base64
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from report.inputs import read_text
+from inputs import read_text
 
 SVG_AT_MOST = 2_000_000  # bytes; above, the PNG beside it is shown
 

@@ -4,8 +4,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from xml.etree import ElementTree
 
-from report.errors import InputError
-from report.inputs import read_text
+from inputs import InputError, read_text
 
 
 @dataclass

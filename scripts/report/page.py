@@ -13,8 +13,8 @@ from markupsafe import Markup
 from report.columns import Column, describe
 from report.figures import read_figures
 from report.gates import read_gates
-from report.inputs import Run, read_runs
 from report.pictures import Album, View
+from report.runs import Run, read_runs
 from report.summary import count, duration, failures, notes, plural, provenance, state
 from report.tables import Table, make_table
 
@@ -87,5 +87,5 @@ def make_page(results: Path, output: Path, program: Path | None, title: str, sid
     style, script = ((PARTS / name).read_text(encoding="utf-8") for name in ("report.css", "report.js"))
     return environment.get_template("template.html").render(
         title=title, sections=sections, gates=gates, figures=read_figures(results), album=album,
-        notes=notes(runs, {s.run.name: s.table for s in sections}, gates), glossary=glossary(sections),
+        notes=notes(runs, gates), glossary=glossary(sections),
         style=Markup(style), script=Markup(script), style_hash=source_hash(style), script_hash=source_hash(script))

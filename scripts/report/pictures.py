@@ -11,8 +11,8 @@ from pathlib import Path
 
 from PIL import Image, UnidentifiedImageError
 
-from report.errors import InputError
-from report.inputs import Run
+from inputs import InputError
+from report.runs import Run
 
 # What the experiments write behind a point's id, and what it shows.
 KINDS = {

@@ -3,8 +3,7 @@
 from dataclasses import dataclass, field
 
 from report.gates import GateFile
-from report.inputs import Run
-from report.tables import Table
+from report.runs import Run
 
 
 @dataclass
@@ -49,7 +48,7 @@ def names(values: object) -> list[str]:
     return [str(v) for v in values] if isinstance(values, list) else []
 
 
-def notes_of_run(run: Run, table: Table) -> list[Note]:
+def notes_of_run(run: Run) -> list[Note]:
     notes = []
     points, failed = count(run, "points"), count(run, "points_failed")
     if failed:
@@ -72,9 +71,9 @@ def notes_of_run(run: Run, table: Table) -> list[Note]:
     return notes
 
 
-def notes(runs: list[Run], tables: dict[str, Table], gates: list[GateFile]) -> list[Note]:
+def notes(runs: list[Run], gates: list[GateFile]) -> list[Note]:
     """What the reader must know before trusting a number, gravest first."""
-    found = [note for run in runs for note in notes_of_run(run, tables[run.name])]
+    found = [note for run in runs for note in notes_of_run(run)]
     for file in gates:
         if failed := file.count("failed"):
             found.append(Note("bad", f"{failed:,} of {plural(len(file.gates), 'gate')} failed in {file.name}"))

@@ -3,8 +3,9 @@
 from dataclasses import dataclass
 from statistics import median
 
-from report.columns import Column, folded_into, guessed, headline, is_number, number_text
-from report.inputs import Run
+from csv_table import is_number
+from report.columns import Column, folded_into, guessed, headline, number_text
+from report.runs import Run
 
 
 @dataclass
@@ -50,7 +51,7 @@ def declared_columns(run: Run, described: list[Column]) -> list[Column]:
     """The table's columns in its order, described where the experiment does."""
     known = {column.name: column for column in described}
     parameters = {"id", "scene", "camera", *run.part("config", "parameters"), *run.part("config", "sweep")}
-    return [known.get(name) or guessed(name, (row[name] for row in run.rows), parameters) for name in run.header]
+    return [known.get(name) or guessed(name, (row[name] for row in run.rows), parameters) for name in run.columns]
 
 
 def figure(column: Column, rows: list[dict[str, str]]) -> Figure | None:
@@ -69,7 +70,10 @@ def interval(row: dict[str, str], name: str) -> str:
 
 
 def cell_text(column: Column, value: str) -> str:
-    """Keys are what somebody chose: without added zeros, commas or lost digits, but for those of a computed one."""
+    """Keys are what somebody chose: without added zeros, commas or lost digits, but for those of a computed one. An id may look
+    like a number, and is none."""
+    if column.name == "id":
+        return value
     if column.kind != "key" or not is_number(value):
         return number_text(value)
     return value if len(value) <= 8 else f"{float(value):.6g}"

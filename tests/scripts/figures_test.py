@@ -4,6 +4,7 @@
 import json
 import os
 import re
+import shutil
 import tempfile
 import unittest
 import xml.dom.minidom
@@ -74,6 +75,29 @@ class Figures(unittest.TestCase):
         self.assertEqual(run("figures.py", self.root, "--only", "ssrm_tables").returncode, 0)
         (self.root / "figures" / "ssrm_tables.csv").write_text("not,a,result\n")
         self.assertEqual(run("figures.py", self.root, "--only", "ssrm_tables").returncode, 0)
+
+    def test_skips_a_table_without_rows_and_takes_the_next(self):
+        path = write(self.root, "ssrm_tables", [SSRM])
+        path.write_text(path.read_text().splitlines()[0] + "\n")
+        write(self.root, "quickstart", [SSRM])
+        done = run("figures.py", self.root, "--only", "ssrm_*", "--only", "time_error_ssrm_tables")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("made     ssrm_tables: ", done.stdout)
+        self.assertIn(f"skipped  time_error_ssrm_tables: {path} has no rows\n", done.stdout)
+
+    def test_leaves_shards_to_the_merged_table(self):
+        path = write(self.root, "ssrm_tables", [SSRM])
+        shutil.copytree(path.parent, path.parent / "shard-1-of-2")
+        done = run("figures.py", path.parent, "--only", "ssrm_tables")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_names_the_place_in_a_damaged_manifest(self):
+        manifest = write(self.root, "ssrm_tables", [SSRM]).parent / "manifest.json"
+        manifest.write_text('{"config": oops}')
+        done = run("figures.py", self.root, "--only", "ssrm_times")
+        self.assertEqual((done.returncode, done.stderr), (2, f"figures: ssrm_times: {manifest}:1:12: not JSON: Expecting value\n"))
+        manifest.write_text('{"config": 1, "machine": []}')  # says nothing, and harms nothing
+        self.assertEqual(run("figures.py", self.root, "--only", "ssrm_times").returncode, 0)
 
     def test_says_what_it_skips_and_why(self):
         write(self.root, "quickstart", [SSRM])

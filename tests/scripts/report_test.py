@@ -7,6 +7,7 @@ import io
 import json
 import random
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -21,7 +22,7 @@ sys.path.insert(0, str(SCRIPTS))
 
 from report.columns import Column, number_text, parse_description  # noqa: E402
 from report.gates import read_junit  # noqa: E402
-from report.inputs import Run, read_run  # noqa: E402
+from report.runs import Run, read_run, read_runs  # noqa: E402
 from report.summary import duration, notes_of_run, state  # noqa: E402
 from report.tables import make_table  # noqa: E402
 
@@ -148,6 +149,16 @@ class Reading(unittest.TestCase):
         folder.write("made_up.csv.partial", TABLE.splitlines()[0] + "\n")
         self.assertEqual(len(folder.read().rows), 3)
 
+    def test_runs_of_one_name_are_told_apart_by_their_folders(self):
+        folder = Folder()
+        shutil.copytree(folder.run, folder.path / "other")
+        self.assertEqual([run.name for run in read_runs(folder.path)], ["made_up/made_up", "other/made_up"])
+
+    def test_shards_are_left_to_the_merged_run(self):
+        folder = Folder()
+        shutil.copytree(folder.run, folder.run / "shard-1-of-2")
+        self.assertEqual([run.name for run in read_runs(folder.run)], ["made_up"])
+
     def test_gates_are_read_from_junit_the_failed_ones_first(self):
         folder = Folder()
         file = folder.write("gates/a.xml", """<testsuite><testcase name="one"/><testcase name="two"><skipped message="known"/></testcase>
@@ -195,10 +206,14 @@ class Tables(unittest.TestCase):
                          {"scene": "key", "size": "key", "mode": "key", "error": "metric", "total_ms": "time"})
 
 
+    def test_an_id_that_looks_like_a_number_is_none(self):
+        table = make_table(Folder(TABLE.replace("a1,", "01,").replace("a2,", "02,").replace("a3,", "03,")).read(), described())[0]
+        self.assertEqual([row[-1].text for row in table.rows], [f"000000000000000{i}" for i in (1, 2, 3)])
+
+
 class Notes(unittest.TestCase):
     def notes(self, table: str = TABLE, **parts: object) -> list[tuple[str, str]]:
-        run = Folder(table, MANIFEST | parts).read()
-        return [(note.level, note.text) for note in notes_of_run(run, make_table(run, described())[0])]
+        return [(note.level, note.text) for note in notes_of_run(Folder(table, MANIFEST | parts).read())]
 
     def test_a_sound_run_needs_none(self):
         self.assertEqual(self.notes(), [])
@@ -215,8 +230,7 @@ class Notes(unittest.TestCase):
         self.assertIn("1 of 3 rows", self.notes(table.replace("ring,1", "ring,false"))[0][1])
 
     def test_a_table_without_a_manifest_is_said_to_be_of_unknown_origin(self):
-        run = Folder(manifest=None).read()
-        self.assertIn("unknown", notes_of_run(run, make_table(run, [])[0])[0].text)
+        self.assertIn("unknown", notes_of_run(Folder(manifest=None).read())[0].text)
 
 
 class Page(unittest.TestCase):
@@ -339,7 +353,7 @@ class Complaints(unittest.TestCase):
         self.refused(folder, "not_there", "no such folder")
 
     def test_a_short_row_is_named_by_its_line(self):
-        self.refused(Folder(TABLE + "00000000000000a4,ring\n"), "made_up.csv:5", "2 cells, but the header has 11")
+        self.refused(Folder(TABLE + "00000000000000a4,ring\n"), "made_up.csv:5", "2 cells where the header has 11")
 
     def test_an_empty_table_and_an_open_quote_are_errors(self):
         self.refused(Folder(""), "made_up.csv", "not even a header")

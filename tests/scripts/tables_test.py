@@ -73,9 +73,9 @@ class Tables(unittest.TestCase):
         path.write_text(",".join(SSRM) + "\n")
         self.assertIn(f"{path}: no rows", self.refused(path))
         path.write_text("")
-        self.assertIn(f"{path}: column scene is missing", self.refused(path))
+        self.assertIn(f"{path}: empty, not even a header", self.refused(path))
         path.write_bytes(b"scene\n\xff\xfe\n")
-        self.assertIn(f"{path}: not a CSV table", self.refused(path))
+        self.assertIn(f"{path}: not UTF-8 at byte 6", self.refused(path))
         self.assertIn("No such file", self.refused(self.root / "nowhere.csv"))
 
 

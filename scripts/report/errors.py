@@ -1,5 +1,0 @@
-"""What is wrong with the inputs, in one sentence that names the place."""
-
-
-class InputError(Exception):
-    pass
