@@ -8,6 +8,7 @@ from caustics_fit import LightCost, light_cost, light_groups, paper_numbers
 from csv_table import Row, number
 from figures import style
 from figures.results import Result, Results, Skip
+from figures.ticks import log_ticks, plain_ticks
 from grouping import Group, groups_of
 from matplotlib import pyplot as plt
 from matplotlib.axes import Axes
@@ -120,13 +121,13 @@ def draw_rays(results: Results, folder: Path, name: str) -> list[Path]:
     ticks = sorted({number(r, "rays_per_texel") for _, rows in series for r in rows})
     for axis in axes:
         axis.set(xscale="log", xlabel="light paths per active texel of the maps")
-        style.plain_ticks(axis.xaxis, ticks)
+        plain_ticks(axis.xaxis, ticks)
         paper_mark(axis, paper["rays_per_texel_enough"], "paper: enough")
         paper_mark(axis, paper["rays_per_texel_enough_filtered"], "paper: enough\nwith a filter", "right")
         axis.margins(y=0.16)
     slope_guide(axes[0], ticks)
     for axis in axes:
-        style.log_ticks(axis.yaxis)
+        log_ticks(axis.yaxis)
     style.letter(axes)
     style.finish(figure, legend(series, [FLOOR] if floored else []),
                  f"{result.name}.csv; bars: 95 % interval, interquartile range; dotted: what the paper finds enough "
@@ -161,11 +162,11 @@ def draw_depth(results: Results, folder: Path, name: str) -> list[Path]:
     ticks = sorted({number(r, "mirror_depth") for _, rows in series for r in rows})
     for axis in axes:
         axis.set(xlabel="specular events of a path, at most")
-        style.plain_ticks(axis.xaxis, ticks)
+        plain_ticks(axis.xaxis, ticks)
         paper_mark(axis, paper["mirror_depth_best"])
         paper_mark(axis, paper["mirror_depth_no_gain_beyond"])
     for axis in axes[1:]:
-        style.log_ticks(axis.yaxis)
+        log_ticks(axis.yaxis)
     style.letter(axes)
     best, last = paper["mirror_depth_best"], paper["mirror_depth_no_gain_beyond"]
     handles = legend(series, [FLOOR] if floored else [])
@@ -214,7 +215,7 @@ def light_times(axis: Axes, rows: list[Row], cost: LightCost) -> None:
                       marker=style.CYCLE[at % len(style.CYCLE)][1], linestyle="", label=f"{count:g}")
         axis.plot([0.0, last], [b * count + c, a * last + b * count + c], color=color, linewidth=0.9)
     axis.set(title="time and its linear fit", xlabel="lights that the camera sees", ylabel="caustic pass, ms", ylim=(0.0, None))
-    style.plain_ticks(axis.xaxis, sorted({v for v, _, _ in cost.points}))
+    plain_ticks(axis.xaxis, sorted({v for v, _, _ in cost.points}))
     handles, labels = axis.get_legend_handles_labels()
     axis.legend(handles[::-1], labels[::-1], title="lights that it\ndoes not see", title_fontsize=6.5, loc="center left",
                 bbox_to_anchor=(1.0, 0.5), handlelength=1.0)
@@ -224,10 +225,9 @@ def with_interval(axis: Axes, x: float, value: float, interval: tuple[float, flo
     axis.errorbar([x], [value], [[max(value - interval[0], 0.0)], [max(interval[1] - value, 0.0)]], color=color, marker="o", capsize=2.5)
 
 
-def paper_point(axis: Axes, x: float, value: float, text: str) -> None:
+def paper_point(axis: Axes, x: float, value: float, text: str, offset: tuple[int, int], **alignment: str) -> None:
     axis.plot([x], [value], color=style.PAPER, marker="D", markerfacecolor="white", linestyle="")
-    axis.annotate(text, (x, value), xytext=(0, -6), textcoords="offset points", fontsize=6, color=style.PAPER,
-                  ha="center", va="top")
+    axis.annotate(text, (x, value), xytext=offset, textcoords="offset points", fontsize=6, color=style.PAPER, **alignment)
 
 
 def light_bars(axis: Axes, cost: LightCost) -> None:
@@ -236,12 +236,12 @@ def light_bars(axis: Axes, cost: LightCost) -> None:
                                                 (cost.fit[1], lambda s: s[1], paper["light_invisible_ms"]))):
         with_interval(axis, x - 0.15, value, cost.interval(pick), (style.BLUE, style.ORANGE)[x])
         axis.annotate(style.short(value), (x - 0.15, value), xytext=(-5, 0), textcoords="offset points", fontsize=6, ha="right", va="center")
-        paper_point(axis, x + 0.2, printed, f"paper {printed:g}")
+        paper_point(axis, x + 0.2, printed, f"paper {printed:g}", (0, -6), ha="center", va="top")
     axis.set_yscale("log")
     axis.set_xticks([0, 1], ["seen", "not seen"])
     axis.set(title="cost of a light", ylabel="ms (paper: RTX 2060 mobile)", xlim=(-0.7, 1.7))
     axis.margins(y=0.25)
-    style.log_ticks(axis.yaxis)
+    log_ticks(axis.yaxis)
     axis.grid(axis="x", visible=False)
 
 
@@ -250,7 +250,7 @@ def light_ratio(axis: Axes, cost: LightCost) -> None:
     with_interval(axis, 0.0, b / a, cost.interval(lambda s: s[1] / s[0]), style.GREEN)
     axis.annotate(f"{b / a:.2f}", (0.0, b / a), xytext=(-5, 0), textcoords="offset points", fontsize=6, ha="right", va="center")
     printed = paper["light_invisible_ms"] / paper["light_visible_ms"]
-    paper_point(axis, 1.0, printed, f"{printed:.2f}")
+    paper_point(axis, 1.0, printed, f"{printed:.2f}", (5, 0), ha="left", va="center")
     axis.axhline(1.0, color="black", linewidth=0.7)
     axis.set_xticks([0, 1], ["here", "paper"])
     axis.set(title="ratio", ylabel="cost of one not seen / of one seen", xlim=(-0.7, 1.6))

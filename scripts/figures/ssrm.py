@@ -6,6 +6,7 @@ from pathlib import Path
 from csv_table import Row, number, read_table, whole
 from figures import style
 from figures.results import Result, Results, Skip
+from figures.ticks import log_ticks, plain_ticks
 from fitting import mean_interval
 from grouping import groups_of
 from matplotlib.axes import Axes
@@ -93,12 +94,12 @@ def draw_times(results: Results, folder: Path) -> list[Path]:
             paper_line(axis, [megapixels(r) for r in lines], [number(r, column) for r in lines], marker, scene)
     ticks = sorted({megapixels(r) for r in [*rows, *table1]})
     for axis in axes:
-        style.plain_ticks(axis.xaxis, ticks)
+        plain_ticks(axis.xaxis, ticks)
         axis.xaxis.set_major_formatter(lambda value, _: f"{value:.2g}")
         axis.set_xlim(ticks[0] / 1.2, ticks[-1] * 1.75)
     for axis in axes[:2]:
         axis.set_yscale("log")
-        style.log_ticks(axis.yaxis)
+        log_ticks(axis.yaxis)
     top = max(axis.get_ylim()[1] for axis in axes[2:])
     for axis in axes[2:]:
         axis.axhline(1.0, color="black", linewidth=0.7)
@@ -162,7 +163,7 @@ def nines(axis: Axes, least: float) -> None:
     """A precision axis on which 90, 99 and 99.9 % are as far apart as they matter."""
     axis.set_yscale("logit")
     ticks = [t for t in (0.5, 0.7, 0.8, 0.9, 0.95, 0.98, 0.99, 0.995, 0.998, 0.999, 0.9995, 0.9998, 0.9999) if t >= least - 0.1]
-    style.plain_ticks(axis.yaxis, ticks)
+    plain_ticks(axis.yaxis, ticks)
     axis.yaxis.set_major_formatter(lambda value, _: f"{100 * value:.6g}")
 
 

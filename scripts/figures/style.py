@@ -1,16 +1,14 @@
 """How all figures look, and how they are written: the same bytes for the same tables."""
 
-import math
 from pathlib import Path
 
 import matplotlib
 
 matplotlib.use("Agg")
 
-from matplotlib import pyplot as plt, ticker
+from matplotlib import pyplot as plt
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
-from matplotlib.axis import Axis
 from matplotlib.figure import Figure
 
 WIDTH = 7.0  # inches: two columns of a paper
@@ -46,22 +44,6 @@ def short(value: float) -> str:
     return f"{float(f'{value:.3g}'):.10g}"
 
 
-def written(value: float, _: float = 0.0) -> str:
-    """A plain number; with a power of ten where that would be long."""
-    if value == 0.0 or 1e-3 <= abs(value) < 1e4:
-        return f"{value:g}"
-    power = math.floor(math.log10(abs(value)) + 1e-9)
-    mantissa = value / 10.0 ** power
-    return rf"$10^{{{power}}}$" if abs(mantissa - 1.0) < 1e-9 else rf"${mantissa:g}\times10^{{{power}}}$"
-
-
-def plain_ticks(axis: Axis, values: list[float]) -> None:
-    """Ticks at exactly these values."""
-    axis.set_major_locator(ticker.FixedLocator(values))
-    axis.set_minor_locator(ticker.NullLocator())
-    axis.set_major_formatter(ticker.FuncFormatter(written))
-
-
 def panels(rows: int, columns: int, height: float, widths: list[float] | None = None) -> tuple[Figure, list[Axes]]:
     """A grid of panels of that height, inches, row by row."""
     figure = plt.figure(figsize=(WIDTH, rows * height))
@@ -90,19 +72,6 @@ def finish(figure: Figure, handles: list[Artist], text: str, handlelength: float
     if legend:
         legend.set_bbox_to_anchor((0.5, room / total))
     figure.text(0.01, 0.04 / total, text, fontsize=6, color="0.35", ha="left", va="bottom", in_layout=False)
-
-
-def log_ticks(axis: Axis) -> None:
-    """A few ticks at round values of a logarithmic axis, at powers of ten alone where it is long."""
-    low, high = axis.get_view_interval()
-    decades = range(math.floor(math.log10(low)) - 1, math.ceil(math.log10(high)) + 1)
-    for digits in ((1, 1.2, 1.5, 2, 3, 4, 5, 7), (1, 2, 5), (1, 3), (1,)):
-        ticks = [d * 10.0 ** k for k in decades for d in digits if low <= d * 10.0 ** k <= high]
-        if len(ticks) <= 6:
-            break
-    if len(ticks) < 2:  # a short axis is nearly linear
-        ticks = [t for t in ticker.MaxNLocator(4).tick_values(low, high) if low <= t <= high]
-    plain_ticks(axis, ticks if len(ticks) <= 6 else ticks[::2])
 
 
 def letter(axes: list[Axes]) -> None:

@@ -1,6 +1,5 @@
 """Run time against error, for any table that has both: the Pareto front, and what equal time and equal error read."""
 
-import math
 from collections import defaultdict
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -12,6 +11,7 @@ from figures import style
 from figures.pareto import Setting, fastest_within, front, most_exact_within
 from figures.results import Result, Results, Skip
 from figures.ssrm import of_size, size_shown
+from figures.ticks import log_ticks, log_ticks_and_zero
 from grouping import varying
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
@@ -167,6 +167,11 @@ def readings(comparison: Comparison, name: str) -> TextTable:
                      f"tab:time-error-{name.replace('_', '-')}")
 
 
+def marked(setting: Setting) -> str:
+    """A setting as the figure names it."""
+    return ", ".join(part for part in (setting.method, setting.mark) if part)
+
+
 def of(setting: Setting) -> str:
     return f" ({setting.value})" if setting.value else ""
 
@@ -218,18 +223,16 @@ def draw_panel(axis: Axes, panel: Panel, methods: list[str], with_zero: bool) ->
         if s.mark:
             axis.annotate(s.mark, (s.time, s.error), xytext=(3, 3), textcoords="offset points", fontsize=5.5, zorder=6)
     exact, fast = most_exact_within(panel.settings, at.time), fastest_within(panel.settings, at.error)
-    axis.text(0.0, 1.02, f"equal time: error {times_as(exact.error, at.error)} ({exact.name})\n"
-                         f"equal error: time {times_as(fast.time, at.time)} ({fast.name})",
+    axis.text(0.0, 1.02, f"equal time: error {times_as(exact.error, at.error)} ({marked(exact)})\n"
+                         f"equal error: time {times_as(fast.time, at.time)} ({marked(fast)})",
               transform=axis.transAxes, fontsize=5.5, ha="left", va="bottom", color="0.2", in_layout=False)
     axis.margins(x=0.12, y=0.15)
-    style.log_ticks(axis.xaxis)
+    log_ticks(axis.xaxis)
     if with_zero:
-        bottom, top = -0.3 * least, axis.get_ylim()[1]
-        axis.set_ylim(bottom, top)
-        ticks = [0.0, *(10.0 ** k for k in range(math.ceil(math.log10(least)), math.ceil(math.log10(top))))]
-        style.plain_ticks(axis.yaxis, ticks)
+        axis.set_ylim(bottom=-0.3 * least)
+        log_ticks_and_zero(axis.yaxis, least)
     else:
-        style.log_ticks(axis.yaxis)
+        log_ticks(axis.yaxis)
 
 
 def legend_handles(methods: list[str], panels: list[Panel]) -> list[Line2D]:
