@@ -43,7 +43,8 @@ def title(text: str, group: Group) -> None:
 class LightCost:
     """Least squares of total_ms = a visible + b invisible + c, ms, over the points of one group."""
 
-    points: list[tuple[float, float, float]]  # visible, invisible, ms
+    rows: list[Row]
+    points: list[tuple[float, float, float]]  # visible, invisible, ms; of each row
     fit: tuple[float, float, float]
     samples: list[Vector]  # fits of resampled points
     noise: float | None  # what the spread of the repeats leads to expect of a residual, ms RMS
@@ -81,7 +82,7 @@ def light_cost(rows: list[Row]) -> LightCost | None:
     errors = [QUARTILES_TO_MEDIAN * number(r, "total_spread_ms") / math.sqrt(number(r, "repeats")) for r in usable
               if number(r, "total_spread_ms") is not None and number(r, "repeats")]
     noise = math.sqrt(sum(e * e for e in errors) / len(errors)) if errors else None
-    return LightCost(points, (fit[0], fit[1], fit[2]), drawn, noise)
+    return LightCost(usable, points, (fit[0], fit[1], fit[2]), drawn, noise)
 
 
 def paper_numbers() -> dict[str, float]:

@@ -18,7 +18,7 @@ def varying(rows: list[Row], keys: Iterable[str]) -> list[str]:
     scenes: dict[str, list[Row]] = defaultdict(list)
     for row in rows:
         scenes[row.get("scene", "")].append(row)
-    return [k for k in keys if k in rows[0]
+    return [k for k in keys if rows and k in rows[0]
             and (len(scenes) > 1 if k == "scene" else any(len({row[k] for row in members}) > 1 for members in scenes.values()))]
 
 

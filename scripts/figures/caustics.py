@@ -34,7 +34,7 @@ def series_of(result: Result, x: str) -> Series:
     """Rows by everything but x, ordered by x, where x takes at least two values."""
     rows = [r for r in result.rows if r.get("caustics") != "false"]
     found = []
-    for group, members in groups_of(rows, {x, "threads"}, result.keys).items() if rows else ():
+    for group, members in groups_of(rows, {x, "threads"}, result.keys).items():
         ordered = sorted((r for r in members if number(r, x) is not None), key=lambda r: number(r, x))
         if len({number(r, x) for r in ordered}) > 1:
             found.append((group, ordered))
@@ -183,14 +183,13 @@ def draw_lights(results: Results, folder: Path) -> list[Path]:
     if not result.table.filled("total_ms"):
         raise Skip(f"{result.table.path} has no times")
     rows = [r for r in result.rows if r.get("caustics") != "false"]
-    groups = light_groups(rows) if rows else {}
-    costs = [(group, members, cost) for group, members in groups.items() if (cost := light_cost(members)) is not None]
+    costs = [(group, cost) for group, members in light_groups(rows).items() if (cost := light_cost(members)) is not None]
     if not costs:
         raise Skip(f"{result.table.path}: the numbers of visible and invisible lights do not determine their cost")
     written = []
-    for at, (group, members, cost) in enumerate(costs):
+    for at, (group, cost) in enumerate(costs):
         figure, axes = style.panels(1, 3, 2.7, [1.7, 0.9, 0.7])
-        light_times(axes[0], members, cost)
+        light_times(axes[0], cost)
         light_bars(axes[1], cost)
         light_ratio(axes[2], cost)
         style.letter(axes)
@@ -201,15 +200,14 @@ def draw_lights(results: Results, folder: Path) -> list[Path]:
     return written
 
 
-def light_times(axis: Axes, rows: list[Row], cost: LightCost) -> None:
+def light_times(axis: Axes, cost: LightCost) -> None:
     a, b, c = cost.fit
     invisible = sorted({i for _, i, _ in cost.points})
     shades = plt.get_cmap("cividis")
     last = max(v for v, _, _ in cost.points)
     for at, count in enumerate(invisible):
         color = shades(0.9 * at / max(len(invisible) - 1, 1))
-        members = sorted((r for r in rows if number(r, "lights_invisible") == count and number(r, "total_ms") is not None),
-                         key=lambda r: number(r, "lights_visible"))
+        members = sorted((r for r in cost.rows if number(r, "lights_invisible") == count), key=lambda r: number(r, "lights_visible"))
         xs = [number(r, "lights_visible") for r in members]
         axis.errorbar(xs, [number(r, "total_ms") for r in members], spread_bars(members), color=color, elinewidth=0.7,
                       marker=style.CYCLE[at % len(style.CYCLE)][1], linestyle="", label=f"{count:g}")

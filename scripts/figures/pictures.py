@@ -24,6 +24,7 @@ def show(axis: Axes, path: Path, title: str) -> None:
 
 def one_for_each_scene(result: Result, kinds: tuple[str, ...]) -> list[Row]:
     """The first row of each scene of which all these pictures are there."""
+    result.table.need("id", "scene", "camera", "width", "height")
     chosen: dict[str, Row] = {}
     for row in result.rows:
         if row["scene"] not in chosen and all(result.picture(row, kind) for kind in kinds):

@@ -23,8 +23,11 @@ MARKERS = ("o", "X", "^", "v", "D", "P", "*", "s")
 
 
 def tables_result(results: Results, *needed: str) -> Result:
-    result = results.any_of(TABLES)[0]
-    result.table.need(*needed)
+    return with_columns(results.any_of(TABLES)[0], *needed)
+
+
+def with_columns(result: Result, *needed: str) -> Result:
+    result.table.need("scene", "camera", "width", "height", *needed)
     return result
 
 
@@ -168,8 +171,7 @@ def nines(axis: Axes, least: float) -> None:
 
 
 def draw_precision_recall(results: Results, folder: Path) -> list[Path]:
-    result = results.any_of(("ssrm_accuracy", "ssrm_derivatives", *TABLES))[0]
-    result.table.need("scene", "precision", "recall")
+    result = with_columns(results.any_of(("ssrm_accuracy", "ssrm_derivatives", *TABLES))[0], "precision", "recall")
     size = size_shown(result.rows)
     points = []  # (scene, setting, recall, precision)
     for group, members in groups_of(of_size(result.rows, size), {"scene", "camera", "threads"}, result.keys).items():

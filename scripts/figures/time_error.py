@@ -110,7 +110,7 @@ def of_ssrm(result: Result) -> Comparison:
     if not result.table.filled("t_hybrid_ms"):
         raise Skip(f"{result.table.path} has no time: t_hybrid_ms is empty")
     size = size_shown(result.rows)
-    rows = [r for r in of_size(result.rows, size) if number(r, "precision") is not None]
+    rows = [r for r in of_size(result.rows, size) if number(r, "alpha") is not None and number(r, "precision") is not None]
     varied = [k for k in varying(rows, result.keys) if k not in (*PROBLEM, "threads")]
     values = list(dict.fromkeys(", ".join(row[k] for k in varied) for row in rows))
     marks = {value: chr(ord("a") + i) if value else "" for i, value in enumerate(values)}
@@ -123,8 +123,12 @@ def of_ssrm(result: Result) -> Comparison:
         settings = []
         for name, columns, wrong in METHODS:
             exact = name.startswith("tracer")
-            groups = {"": [r for rows in by_setting.values() for r in rows]} if exact else by_setting
-            settings += [mean_setting(name, value, marks.get(value, ""), members, columns, wrong) for value, members in groups.items()]
+            for value, members in ({"": sum(by_setting.values(), [])} if exact else by_setting).items():
+                timed = [r for r in members if all(number(r, c) is not None for c in columns)]
+                if timed:
+                    settings.append(mean_setting(name, value, marks.get(value, ""), timed, columns, wrong))
+        if len(settings) < 2:
+            continue
         as_paper = next((s for s in settings if s.method == METHODS[0][0] and "difference" not in s.value), settings[0])
         panels.append(Panel(f"{style.readable(scene)}, {size[0]}x{size[1]}", settings, as_paper))
     legend = "; ".join(f"{mark}: {value}" for value, mark in marks.items() if mark)
@@ -133,7 +137,7 @@ def of_ssrm(result: Result) -> Comparison:
 
 
 def mean_setting(name: str, value: str, mark: str, rows: list[Row], columns: tuple[str, ...], wrong: Callable[[float, float], float]) -> Setting:
-    times = [sum(number(r, c) or 0.0 for c in columns) for r in rows]
+    times = [sum(number(r, c) for c in columns) for r in rows]
     errors = [wrong(number(r, "alpha"), number(r, "precision")) for r in rows]
     time, error = sum(times) / len(times), sum(errors) / len(errors)
     return Setting(name, value, time, error, (time - min(times), max(times) - time), (error - min(errors), max(errors) - error),
@@ -201,7 +205,7 @@ def draw(results: Results, folder: Path, name: str) -> list[Path]:
 def draw_panel(axis: Axes, panel: Panel, methods: list[str], with_zero: bool) -> None:
     axis.set_xscale("log")
     if with_zero:
-        least = min(s.error for s in panel.settings if s.error > 0.0)
+        least = min((s.error for s in panel.settings if s.error > 0.0), default=1.0)
         axis.set_yscale("symlog", linthresh=0.5 * least, linscale=0.5)
     else:
         axis.set_yscale("log")

@@ -135,6 +135,25 @@ class Figures(unittest.TestCase):
         latex = (self.root / "figures" / "time_error_caustics_rays_objects.tex").read_text()
         self.assertIn(r"\quad filter wavelet &  &  &  & $\times$ 0.5 (0.5) & $\times$ 0.35 (0.25) \\", latex)
 
+    def test_leaves_out_points_without_a_number(self):
+        write(self.root, "ssrm_tables", [changed(SSRM, camera="side", alpha=""), changed(SSRM, camera="top", t_hybrid_ms=""),
+                                         changed(SSRM, t_hybrid_single_ms=""), SSRM])
+        write(self.root, "caustics_lights", [changed(lights()[0], lights_visible=""), *lights()])
+        write(self.root, "caustics_rays", [changed(r, relmse=0) for r in rays()])
+        done = run("figures.py", self.root, "--only", "time_error_ssrm*", "--only", "ssrm_alpha", "--only", "caustics_lights",
+                   "--only", "time_error_caustics_rays")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertNotIn("skipped", done.stdout)
+        text = (self.root / "figures" / "time_error_ssrm_tables.txt").read_text()
+        self.assertRegex(text, r"sphere, 1280x720 +hybrid, fastest mode +12 ")
+        write(self.root, "ssrm_tables", [changed(SSRM, alpha="", precision="")])
+        self.assertIn("skipped  time_error_ssrm_tables: ", run("figures.py", self.root, "--only", "time_error_ssrm*").stdout)
+
+    def test_names_the_columns_that_pictures_are_found_by(self):
+        path = write(self.root, "quickstart", [{k: v for k, v in SSRM.items() if k != "camera"}])
+        done = run("figures.py", self.root, "--only", "ssrm_verdicts")
+        self.assertEqual((done.returncode, done.stderr), (2, f"figures: ssrm_verdicts: {path}: column camera is missing\n"))
+
     def test_compares_settings_of_one_problem_only(self):
         slow = [changed(r, width=640, height=360, total_ms=1000) for r in rays()]
         write(self.root, "caustics_rays", rays() + slow)
