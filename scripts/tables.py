@@ -110,7 +110,7 @@ def as_text(table: Table) -> str:
 
 
 def as_latex(table: Table) -> str:
-    """Table environments with \\usepackage{booktabs}."""
+    """Table environments with \\usepackage{booktabs,graphicx}."""
     m = Measured(table)
     return "\n".join([f"% {preface(table, m)}", *(t.latex() for t in text_tables(m))])
 
@@ -118,7 +118,7 @@ def as_latex(table: Table) -> str:
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("table", type=Path, help="CSV written by `hybray run` of an ssrm config")
-    parser.add_argument("--latex", action="store_true", help="LaTeX, with booktabs, instead of text")
+    parser.add_argument("--latex", action="store_true", help="LaTeX, with booktabs and graphicx, instead of text")
     arguments = parser.parse_args()
     try:
         table = read_table(arguments.table).need(*NEEDED)

@@ -14,12 +14,12 @@ class Setting:
     error: float
     time_bar: tuple[float, float] = (0.0, 0.0)  # lengths below and above
     error_bar: tuple[float, float] = (0.0, 0.0)
-    mark: str = ""  # stands for the value in a figure
+    mark: str = ""  # stands for the value in figures and tables
     floor: bool = False  # the error says more about the reference than about the setting
 
     @property
     def name(self) -> str:
-        return ", ".join(part for part in (self.method, self.value) if part)
+        return ", ".join(part for part in (self.method, self.mark) if part)
 
 
 def front(settings: Sequence[Setting]) -> list[Setting]:

@@ -39,9 +39,9 @@ def readable(name: str) -> str:
     return name.replace("_", " ")
 
 
-def short(value: float) -> str:
-    """Three digits, without an exponent."""
-    return f"{float(f'{value:.3g}'):.10g}"
+def short(value: float, digits: int = 3) -> str:
+    """So many digits, without an exponent unless it is very small."""
+    return f"{float(f'{value:.{digits}g}'):.10g}"
 
 
 def panels(rows: int, columns: int, height: float, widths: list[float] | None = None) -> tuple[Figure, list[Axes]]:

@@ -80,6 +80,6 @@ def round_values(low: float, high: float) -> list[list[float]]:
     within = [(digits, 1) for digits in ("1 3", "1 2 5", "1 1.5 2 3 5 7", "1 1.2 1.5 2 3 4 5 7")]
     choices = [[float(f"{d}e{k}") for k in powers if k % step == 0 for d in digits.split()] for digits, step in [*every, *within]]
     if high < 3.0 * low:  # nearly linear
-        choices += [list(ticker.MaxNLocator(n).tick_values(low, high)) for n in (2, 3, 4)]
+        choices += [list(ticker.MaxNLocator(n, steps=[1, 2, 5, 10]).tick_values(low, high)) for n in (2, 3, 4, 5)]
     inside = [[t for t in ticks if low <= t <= high] for ticks in choices]
     return [ticks for ticks in inside if len(ticks) <= MOST]

@@ -32,6 +32,7 @@ class Panel:
 class Comparison:
     panels: list[Panel]
     error: str  # label of the error axis
+    marks: str  # what stands beside points and in brackets
     note: str = ""
 
 
@@ -91,7 +92,7 @@ def of_caustics(result: Result) -> Comparison:
         panels.append(Panel(title, settings, papers[0] if papers else middle(settings)))
     label = "relMSE of one frame" if error == "relmse" else "error of flux, share (closed form)"
     values = " and ".join(style.readable(k) for k in numeric)
-    return Comparison(panels, label, f"numbers beside points: {values}" if values else "")
+    return Comparison(panels, label, f"numbers: {values}" if values else "")
 
 
 # The ways of answering all rays that an ssrm row measured: name, columns of its time, share of rays without the right answer.
@@ -131,9 +132,8 @@ def of_ssrm(result: Result) -> Comparison:
             continue
         as_paper = next((s for s in settings if s.method == METHODS[0][0] and "difference" not in s.value), settings[0])
         panels.append(Panel(f"{style.readable(scene)}, {size[0]}x{size[1]}", settings, as_paper))
-    legend = "; ".join(f"{mark}: {value}" for value, mark in marks.items() if mark)
-    return Comparison(panels, "rays without the right answer, share",
-                      "means over cameras, bars: least and greatest" + (f"; {legend}" if legend else ""))
+    return Comparison(panels, "rays without the right answer, share", "; ".join(f"{m}: {v}" for v, m in marks.items() if m),
+                      "means over cameras, bars: least and greatest")
 
 
 def mean_setting(name: str, value: str, mark: str, rows: list[Row], columns: tuple[str, ...], wrong: Callable[[float, float], float]) -> Setting:
@@ -151,7 +151,7 @@ def middle(settings: list[Setting]) -> Setting:
 
 def times_as(value: float, base: float) -> str:
     """A ratio; the plain value where there is nothing to divide by."""
-    return f"× {value / base:.2g}" if base > 0.0 else f"{value:.2g}"
+    return f"× {style.short(value / base, 2)}" if base > 0.0 else style.short(value, 2)
 
 
 def readings(comparison: Comparison, name: str) -> TextTable:
@@ -159,25 +159,21 @@ def readings(comparison: Comparison, name: str) -> TextTable:
     lines = []
     for panel in comparison.panels:
         at = panel.reference
-        lines.append([panel.title, at.name, f"{at.time:.3g}", f"{at.error:.3g}", "", ""])
+        lines.append([panel.title, at.name, style.short(at.time), style.short(at.error), "", ""])
         for method in dict.fromkeys(s.method for s in panel.settings):
             own = [s for s in panel.settings if s.method == method]
             exact, fast = most_exact_within(own, at.time), fastest_within(own, at.error)
             lines.append([f"  {method or 'all settings'}", "", "", "",
                           "none as fast" if exact is None else f"{times_as(exact.error, at.error)}{of(exact)}",
                           "none as exact" if fast is None else f"{times_as(fast.time, at.time)}{of(fast)}"])
-    return TextTable(f"Equal time and equal error, {style.readable(name)}",
+    marks = f" ({comparison.marks})" if comparison.marks else ""
+    return TextTable(f"Equal time and equal error, {style.readable(name)}{marks}",
                      ["problem, method", "reference", "time, ms", "error", "error in its time", "time for its error"], lines,
                      f"tab:time-error-{name.replace('_', '-')}")
 
 
-def marked(setting: Setting) -> str:
-    """A setting as the figure names it."""
-    return ", ".join(part for part in (setting.method, setting.mark) if part)
-
-
 def of(setting: Setting) -> str:
-    return f" ({setting.value})" if setting.value else ""
+    return f" ({setting.mark})" if setting.mark else ""
 
 
 def draw(results: Results, folder: Path, name: str) -> list[Path]:
@@ -195,8 +191,8 @@ def draw(results: Results, folder: Path, name: str) -> list[Path]:
         draw_panel(axis, panel, methods, with_zero)
         axis.set(xlabel="time, ms", ylabel=comparison.error if i % across == 0 else "")
         axis.set_title(panel.title, loc="left", pad=20)
-    parts = [f"{name}.csv", comparison.note, result.machine]
-    style.finish(figure, legend_handles(methods, panels), "\n".join(part for part in parts if part))
+    said = "; ".join(part for part in (comparison.note, comparison.marks) if part)
+    style.finish(figure, legend_handles(methods, panels), "\n".join(part for part in (f"{name}.csv", said, result.machine) if part))
     table, stem = readings(comparison, name), f"time_error_{name}"
     return [*style.save(figure, folder, stem), style.save_text(table.text(), folder, f"{stem}.txt"),
             style.save_text(table.latex(), folder, f"{stem}.tex")]
@@ -227,8 +223,8 @@ def draw_panel(axis: Axes, panel: Panel, methods: list[str], with_zero: bool) ->
         if s.mark:
             axis.annotate(s.mark, (s.time, s.error), xytext=(3, 3), textcoords="offset points", fontsize=5.5, zorder=6)
     exact, fast = most_exact_within(panel.settings, at.time), fastest_within(panel.settings, at.error)
-    axis.text(0.0, 1.02, f"equal time: error {times_as(exact.error, at.error)} ({marked(exact)})\n"
-                         f"equal error: time {times_as(fast.time, at.time)} ({marked(fast)})",
+    axis.text(0.0, 1.02, f"equal time: {times_as(exact.error, at.error)} ({exact.name})\n"
+                         f"equal error: {times_as(fast.time, at.time)} ({fast.name})",
               transform=axis.transAxes, fontsize=5.5, ha="left", va="bottom", color="0.2", in_layout=False)
     axis.margins(x=0.12, y=0.15)
     log_ticks(axis.xaxis)

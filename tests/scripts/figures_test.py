@@ -160,7 +160,7 @@ class Figures(unittest.TestCase):
         self.assertEqual(run("figures.py", self.root, "--only", "time_error*").returncode, 0)
         text = (self.root / "figures" / "time_error_caustics_rays.txt").read_text()
         self.assertRegex(text, r"glass ball, 320, 180 +filter none, 1 +10 +100")
-        self.assertRegex(text, r"glass ball, 640, 360 +filter none, 1 +1e\+03 +100")
+        self.assertRegex(text, r"glass ball, 640, 360 +filter none, 1 +1000 +100")
 
     def test_refuses_what_it_cannot_choose_between(self):
         path = write(self.root, "ssrm_tables", [SSRM])

@@ -46,9 +46,11 @@ class Tables(unittest.TestCase):
         self.assertIn(r"\caption{SSRM time, ms}", output)
         self.assertIn("sphere & 4.500 & 9.000 \\\\", output)
         self.assertIn(r"\quad paper, Sphere (GPU) & 1.083 & 1.025 \\", output)
-        self.assertIn(r"alpha\_max", output)
+        self.assertIn(r"& alpha max & precision & recall & \shortstack[r]{miss \\ fraction} &", output)
         self.assertEqual(output.count(r"\begin{tabular}"), 4)
         self.assertEqual(output.count(r"\end{table}"), 4)
+        self.assertEqual(output.count("{"), output.count("}"))
+        self.assertEqual(output.count(r"\addlinespace"), 2, "between the scenes of Tables 2 and 3")
 
     def refused(self, path: Path) -> str:
         done = run("tables.py", path)
