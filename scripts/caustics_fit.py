@@ -59,11 +59,11 @@ class LightCost:
 
 
 def light_cost(rows: list[Row]) -> LightCost | None:
-    """The fit of one group; None where the numbers of lights do not determine it."""
+    """The fit of one group; None where the numbers of lights do not determine it, or no time is above zero."""
     usable = [r for r in rows if all(number(r, c) is not None for c in ("total_ms", "lights_visible", "lights_invisible"))]
     points = [(number(r, "lights_visible"), number(r, "lights_invisible"), number(r, "total_ms")) for r in usable]
     terms, values = [[v, i, 1.0] for v, i, _ in points], [t for _, _, t in points]
-    fit = least_squares(terms, values, [1.0] * len(points)) if len(points) > 3 else None
+    fit = least_squares(terms, values, [1.0] * len(points)) if len(points) > 3 and any(values) else None
     if fit is None:
         return None
     # Bootstrap over points, by resampled counts as weights; draws that do not determine the fit are drawn again.
