@@ -3,6 +3,7 @@
 // --benchmark_enable_random_interleaving=true.
 #include "core/base/parallel.h"
 #include "core/caustics/caustic_pass.h"
+#include "core/optics/specular_step.h"
 #include "core/scene/scene_library.h"
 
 #include <map>
@@ -38,12 +39,11 @@ struct CausticBench {
   // Walks all paths once more, keeping every ray in the order of the walk.
   void record() {
     WalkCounts counts;
-    const auto nothing = [](const auto&...) {};
+    const auto memory = std::make_unique<WalkMemory>();
     for (const VisibilityMap& map : maps.maps) {
       const Emission emission(scene.lights[map.light], map, scene.bounds, settings.emission,
                               expected_paths(map, settings.emission, settings.rays_per_texel), 1);
       for (uint64_t first = 0; first < emission.paths(); first += kBlock) {
-        const auto front = std::make_unique<PathFront>();
         PathWalk walk(tracer, caustic.optics, settings.walk, counts);
         for (uint64_t i = first; i < std::min(first + kBlock, emission.paths()); ++i) {
           const PathStart start = emission.start(i);
@@ -52,13 +52,14 @@ struct CausticBench {
           path.initial = optics::mean(start.flux);
           path.number = i;
           path.medium = caustic.light_media[map.light];
-          front->push(start.origin, start.direction, path);
+          memory->front().push(start.origin, start.direction, path);
         }
-        while (front->count > 0) {
-          batches.push_back({{front->origins.begin(), front->origins.begin() + front->count},
-                             {front->directions.begin(), front->directions.begin() + front->count}});
-          rays += front->count;
-          walk.advance(*front, nothing);
+        while (const size_t count = memory->front().count) {
+          const PathFront& front = memory->front();
+          batches.push_back({{front.origins.begin(), front.origins.begin() + count},
+                             {front.directions.begin(), front.directions.begin() + count}});
+          rays += count;
+          walk.advance(*memory);
         }
       }
     }

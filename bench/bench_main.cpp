@@ -1,3 +1,4 @@
+#include "core/base/lanes.h"
 #include "core/base/parallel.h"
 #include "core/tracer/tracer.h"
 
@@ -10,6 +11,9 @@ void register_ssrm();
 
 int main(int argc, char** argv) {
   benchmark::AddCustomContext("embree", hybray::embree_version());
+  // HYBRAY_LANES=AVX2 and the like: vector code of another instruction set than the widest.
+  if (const char* target = std::getenv("HYBRAY_LANES")) hybray::use_lanes_target(target);
+  benchmark::AddCustomContext("lanes", hybray::lanes_target());
   benchmark::AddCustomContext("threads", std::to_string(hybray::thread_count()));
   hybray::bench::register_ssrm();
   hybray::bench::register_caustics();

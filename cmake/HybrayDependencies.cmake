@@ -1,5 +1,5 @@
-# Every package the project stands on. OpenImageIO and xxHash come through pkg-config: the CMake file of the former
-# names libraries that Debian's package does not bring, and the latter has none there.
+# Every package the project stands on. OpenImageIO, Highway and xxHash come through pkg-config: the CMake file of
+# the first names libraries that Debian's package does not bring, and the last has none there.
 find_package(embree 4 QUIET CONFIG)
 if(embree_FOUND)
   set(HYBRAY_EMBREE_MAJOR 4)
@@ -21,6 +21,7 @@ find_package(valijson REQUIRED CONFIG)
 
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET OpenImageIO)
+pkg_check_modules(HWY REQUIRED IMPORTED_TARGET libhwy)
 pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
 
 if(HYBRAY_TESTS)

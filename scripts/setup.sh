@@ -9,7 +9,7 @@ set -euo pipefail
 packages=(
   g++ cmake ninja-build pkg-config ccache git python3 python3-matplotlib
   libembree-dev libopenimageio-dev libglm-dev libtinygltf-dev nlohmann-json3-dev libvalijson-dev
-  libtbb-dev libboost-dev libcli11-dev libspdlog-dev libfmt-dev libxxhash-dev libgtest-dev libbenchmark-dev
+  libtbb-dev libboost-dev libcli11-dev libspdlog-dev libfmt-dev libhwy-dev libxxhash-dev libgtest-dev libbenchmark-dev
   python3-jinja2 python3-pil
   python3-munkres # with it, matplotlib's fonttools does without SciPy and its 200 MiB of compilers and libraries
 )

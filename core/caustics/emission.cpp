@@ -14,13 +14,12 @@ namespace {
 
 constexpr double kMostPaths = 0x1p40;
 
-// Dimensions of the random numbers below; those of the path's events come after (photon_trace.cpp).
-enum : uint32_t { kOffset, kRotation, kJitter };
+// Dimensions of the random numbers below, besides MapEmission::kJitter; those of the path's events come after
+// (path_walk.h).
+enum : uint32_t { kOffset, kRotation };
 
-// Steps of the additive sequences of low discrepancy: the golden ratio for one dimension, and the root of
-// x^3 = x + 1, which plays its part in two.
+// Step of the additive sequence of low discrepancy in one dimension: the golden ratio.
 constexpr double kGolden = 0.61803398874989485;
-constexpr double kPlasticX = 0.75487766624669276, kPlasticY = 0.56984029099805327;
 
 double fraction(double x) {
   return x - std::floor(x);
@@ -45,48 +44,43 @@ double expected_paths(const VisibilityMap& map, EmissionKind kind, double rays_p
 
 Emission::Emission(const Light& light, const VisibilityMap& map, const Bounds3& scene, EmissionKind kind,
                    double expected, uint64_t seed)
-    : intensity_(light),
-      map_(map),
+    : from_map_{map, Intensity(light), seed, {}, random_unit(0, kOffset, 0, seed)},
       domain_(light, scene),
-      seed_(seed),
-      map_offset_(random_unit(0, kOffset, 0, seed)),
       domain_offset_(random_unit(1, kOffset, 0, seed)),
       rotation_(random_unit(0, kRotation, 0, seed)) {
-  for (const MapFrame& frame : map.frames) frame_rays_.emplace_back(frame.frame);
+  for (const MapFrame& frame : map.frames) from_map_.frames.emplace_back(frame.frame);
   if (kind == EmissionKind::mixture && map.texels.empty()) kind = EmissionKind::uniform;
   if (kind == EmissionKind::map) HYBRAY_CHECK(!map.texels.empty());
   map_expected_ = kind == EmissionKind::map ? expected : kind == EmissionKind::mixture ? 0.5 * expected : 0.0;
   domain_expected_ = expected - map_expected_;
-  domain_density_ = domain_expected_ / domain_.measure();
-  texels_a_path_ = static_cast<double>(map.texels.size()) / map_expected_;
-  map_paths_ = paths_of(map_expected_, map_offset_);
+  from_map_.domain_density = domain_expected_ / domain_.measure();
+  from_map_.texels_a_path = static_cast<double>(map.texels.size()) / map_expected_;
+  from_map_.paths = paths_of(map_expected_, from_map_.offset);
   domain_paths_ = paths_of(domain_expected_, domain_offset_);
 }
 
 PathStart Emission::start(uint64_t path) const {
-  return path < map_paths_ ? from_map(path) : from_domain(path - map_paths_);
+  return path < from_map_.paths ? from_map_.start(path) : from_domain(path - from_map_.paths);
 }
 
-PathStart Emission::from_map(uint64_t path) const {
-  const size_t last = map_.texels.size() - 1;
-  const size_t index =
-      std::min(last, static_cast<size_t>((static_cast<double>(path) + map_offset_) * texels_a_path_));
-  const MapTexel& texel = map_.texels[index];
+PathStart MapEmission::start(uint64_t path) const {
   const double i = static_cast<double>(path);
-  const uint64_t jitter = random_bits(index, kJitter, 0, seed_);
+  const size_t index = std::min(map.texels.size() - 1, static_cast<size_t>((i + offset) * texels_a_path));
+  const MapTexel& texel = map.texels[index];
+  const uint64_t jitter = random_bits(index, kJitter, 0, seed);
   const double x = texel.x + fraction(static_cast<double>(jitter >> 32) * 0x1p-32 + i * kPlasticX);
   const double y = texel.y + fraction(static_cast<double>(jitter & 0xffffffffu) * 0x1p-32 + i * kPlasticY);
 
   PathStart start;
   double density = 0.0;
-  frame_rays_[texel.frame].ray(x, y, start.origin, start.direction, density);
+  frames[texel.frame].ray(x, y, start.origin, start.direction, density);
   start.in_map = true;
   start.frame = texel.frame;
   start.x = texel.x, start.y = texel.y;
   // Paths a unit of the measure here: through the map 1 / (texels_a_path density), and over the domain.
-  const double per_path = texels_a_path_ * density;
-  start.flux = intensity_(start.direction) *
-               (domain_density_ > 0.0 ? per_path / (1.0 + per_path * domain_density_) : per_path);
+  const double per_path = texels_a_path * density;
+  start.flux = intensity(start.direction) *
+               (domain_density > 0.0 ? per_path / (1.0 + per_path * domain_density) : per_path);
   return start;
 }
 
@@ -95,18 +89,18 @@ PathStart Emission::from_domain(uint64_t path) const {
   const double i = static_cast<double>(path);
   domain_.sample(fraction(rotation_ + i * kGolden), (i + domain_offset_) / domain_expected_, start.origin,
                  start.direction);
-  double density = domain_density_;
+  double density = from_map_.domain_density;
   dvec2 image(0.0);
   if (find_texel(start, image))
-    density += map_expected_ / (static_cast<double>(map_.texels.size()) *
-                                map_.frames[start.frame].frame.measure_density(image.x, image.y));
-  start.flux = intensity_(start.direction) / density;
+    density += map_expected_ / (static_cast<double>(from_map_.map.texels.size()) *
+                                from_map_.map.frames[start.frame].frame.measure_density(image.x, image.y));
+  start.flux = from_map_.intensity(start.direction) / density;
   return start;
 }
 
 bool Emission::find_texel(PathStart& start, dvec2& image) const {
-  for (uint32_t f = 0; f < map_.frames.size(); ++f) {
-    const MapFrame& frame = map_.frames[f];
+  for (uint32_t f = 0; f < from_map_.map.frames.size(); ++f) {
+    const MapFrame& frame = from_map_.map.frames[f];
     // A point of the ray that lies in front of the frame: orthographic frames start before the scene.
     const double reach =
         frame.frame.orthographic

@@ -7,14 +7,14 @@
 namespace hybray::caustics {
 
 Intensity::Intensity(const Light& light)
-    : full_(static_cast<double>(light.intensity) * dvec3(light.color)),
-      axis_(light.direction),
-      spot_(light.kind == LightKind::spot) {
-  if (!spot_) return;
-  axis_ = glm::normalize(axis_);
+    : full(static_cast<double>(light.intensity) * dvec3(light.color)),
+      axis(light.direction),
+      spot(light.kind == LightKind::spot) {
+  if (!spot) return;
+  axis = glm::normalize(axis);
   const double inner = std::cos(static_cast<double>(light.inner_cone_angle));
-  outer_ = std::cos(static_cast<double>(light.outer_cone_angle));
-  scale_ = 1.0 / std::max(1e-3, inner - outer_);
+  outer = std::cos(static_cast<double>(light.outer_cone_angle));
+  scale = 1.0 / std::max(1e-3, inner - outer);
 }
 
 bool emits(const Light& light) {

@@ -14,19 +14,17 @@ namespace hybray::caustics {
 // Intensity by channel, W/sr along unit `direction` for point and spot lights, W/m^2 for directional ones.
 // Spot lights fall off between their cones as KHR_lights_punctual says. `range` is not applied: light does
 // not end.
-class Intensity {
- public:
+struct Intensity {
+  dvec3 full, axis;
+  bool spot;
+  double outer = 0.0, scale = 0.0;  // cosine of the outer cone, 1 / difference of the cones' cosines
+
   explicit Intensity(const Light& light);
   dvec3 operator()(const dvec3& direction) const {
-    if (!spot_) return full_;
-    const double falloff = std::clamp((glm::dot(direction, axis_) - outer_) * scale_, 0.0, 1.0);
-    return full_ * (falloff * falloff);
+    if (!spot) return full;
+    const double falloff = std::clamp((glm::dot(direction, axis) - outer) * scale, 0.0, 1.0);
+    return full * (falloff * falloff);
   }
-
- private:
-  dvec3 full_, axis_;
-  bool spot_;
-  double outer_ = 0.0, scale_ = 0.0;  // cosine of the outer cone, 1 / difference of the cones' cosines
 };
 inline dvec3 intensity(const Light& light, const dvec3& direction) {
   return Intensity(light)(direction);

@@ -9,20 +9,25 @@ namespace hybray::caustics {
 
 // Flux that arrived at a surface with a diffuse part after at least one specular event.
 struct Photon {
-  vec3 position{0.0f};   // on the surface, metres
-  vec3 normal{0.0f};     // geometric, unit, on the side of arrival
-  vec3 direction{0.0f};  // of travel, unit
-  vec3 flux{0.0f};       // W by channel, before the surface's BRDF
-  // |cos| of arrival with the shading normal / with the geometric normal: what turns flux per area of the
-  // triangle into irradiance on the smooth surface that it stands for (Veach 1997, 5.3). 1 where the shading
-  // normal turns away and the geometric one stands in.
-  float shading_ratio = 1.0f;
-  float cos_in = 1.0f;  // of arrival, with the shading normal
+  vec3 position{0.0f};  // on the surface, metres
+  float cos_in = 1.0f;  // |cos| of arrival with the shading normal
+  vec3 normal{0.0f};    // geometric, unit, on the side of arrival
   uint32_t material = 0;
+  vec3 direction{0.0f};  // of travel, unit
   uint32_t primitive = 0;
+  vec3 flux{0.0f};             // W by channel, before the surface's BRDF
   uint16_t events = 0;         // specular events before this surface
   uint16_t missed_by_map = 0;  // 1: the path left the light where its visibility map has probability zero
+
+  // |cos| of arrival with the shading normal / with the geometric normal: what turns flux per area of the
+  // triangle into irradiance on the smooth surface that it stands for (Veach 1997, 5.3). 1 where the shading
+  // normal turns away and the geometric one stands in; 0 where the light grazes.
+  float shading_ratio() const {
+    const float cos_geometric = -glm::dot(direction, normal);
+    return cos_geometric > 0.0f ? cos_in / cos_geometric : 0.0f;
+  }
 };
+static_assert(sizeof(Photon) == 64);  // a cache line
 
 // Where the flux of the paths went, W, mean of the channels, in double. By construction
 //   emitted = deposited + direct + absorbed + escaped + truncated + balance

@@ -20,12 +20,13 @@ bool add_pair(const Photon& photon, const VisibilityPoint& point, float radius,
               const optics::OpticsTable& optics, FixedPointImage& image) {
   const vec3 apart = photon.position - point.position;
   if (!(glm::dot(apart, apart) <= radius * radius)) return false;
-  if (!(glm::dot(photon.normal, point.normal) > kSameSurface) || !(photon.shading_ratio > 0.0f)) return false;
+  if (!(glm::dot(photon.normal, point.normal) > kSameSurface) || !(photon.shading_ratio() > 0.0f))
+    return false;
   const double r = radius;
   const dvec3 brdf =
       optics::diffuse_brdf(optics.materials[point.material], static_cast<double>(photon.cos_in),
                            static_cast<double>(point.cos_out));
-  const double scale = static_cast<double>(photon.shading_ratio) / (std::numbers::pi * r * r);
+  const double scale = static_cast<double>(photon.shading_ratio()) / (std::numbers::pi * r * r);
   image.add(point.pixel, dvec3(point.weight) * brdf * dvec3(photon.flux) * scale);
   return true;
 }

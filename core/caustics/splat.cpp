@@ -58,7 +58,7 @@ SplatCounts splat(const PhotonBlocks& photons, const GBuffer& camera, const opti
       const int x = static_cast<int>(place.x), y = static_cast<int>(place.y);
       const dvec3 to_eye = view.eye() - p;
       const double distance = glm::length(to_eye), cos_out = glm::dot(to_eye, n) / distance;
-      bool seen = cos_out > 0.0 && photon.shading_ratio > 0.0f;
+      bool seen = cos_out > 0.0 && photon.shading_ratio() > 0.0f;
       if (seen && visibility == Visibility::depth) {
         seen = agrees(camera, w, place, x, y);
       } else if (seen) {
@@ -80,7 +80,7 @@ SplatCounts splat(const PhotonBlocks& photons, const GBuffer& camera, const opti
       const optics::SurfaceOptics& surface = optics.materials[photon.material];
       const dvec3 brdf = optics::diffuse_brdf(surface, static_cast<double>(photon.cos_in), cos_out);
       image.add(static_cast<size_t>(y) * static_cast<size_t>(view.width()) + static_cast<size_t>(x),
-                dvec3(photon.flux) * brdf * (static_cast<double>(photon.shading_ratio) * per_area));
+                dvec3(photon.flux) * brdf * (static_cast<double>(photon.shading_ratio()) * per_area));
     }
   });
   SplatCounts total;

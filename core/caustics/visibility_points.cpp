@@ -1,8 +1,13 @@
 #include "core/caustics/visibility_points.h"
 
 #include "core/base/check.h"
+#include "core/base/hash.h"
 #include "core/base/morton.h"
 #include "core/base/parallel.h"
+#include "core/caustics/path_walk.h"
+#include "core/optics/specular_step.h"
+
+#include <memory>
 
 #include <tbb/enumerable_thread_specific.h>
 
@@ -60,26 +65,30 @@ VisibilityPoints trace_visibility_points(const Tracer& tracer, const optics::Opt
 
   constexpr size_t kBlock = PathFront::kSize;
   std::vector<VisibilityPoints> blocks((count + kBlock - 1) / kBlock);
-  tbb::enumerable_thread_specific<PathFront> fronts;
+  tbb::enumerable_thread_specific<std::unique_ptr<WalkMemory>> memories(std::make_unique<WalkMemory>);
   parallel_blocks(count, kBlock, [&](size_t begin, size_t end) {
     VisibilityPoints& mine = blocks[begin / kBlock];
-    PathFront& front = fronts.local();
+    WalkMemory& memory = *memories.local();
+    PathFront& front = memory.front();
     PathWalk walk(tracer, optics, options.walk, mine.counts);
-    const auto leave_point = [&](const SurfacePoint& point, const optics::Facing& facing, const dvec3&,
-                                 const Path& path, const optics::SurfaceOptics&) {
-      if (path.events == 0) return;
-      const double ratio = camera_ior / optics.media[path.medium].ior;
-      VisibilityPoint v;
-      v.position = vec3(point.position);
-      v.normal = vec3(facing.geometric);
-      v.weight = vec3(path.weight * (ratio * ratio));
-      v.cos_out = static_cast<float>(facing.cos_incident);
-      v.radius = static_cast<float>(options.radius_pixels * path.length / g.view.focal());
-      v.pixel = path.pixel;
-      v.material = point.material;
-      v.primitive = point.primitive;
-      mine.points.push_back(v);
+    const auto keep_arrivals = [&] {
+      for (size_t i = 0; i < memory.arrivals.count; ++i) {
+        const Photon& a = memory.arrivals.photons[i];
+        const uint64_t tag = memory.arrivals.tag[i];
+        const double ratio = camera_ior / optics.media[path_tag::medium(tag)].ior;
+        VisibilityPoint v;
+        v.position = a.position;
+        v.normal = a.normal;
+        v.weight = a.flux * static_cast<float>(ratio * ratio);
+        v.cos_out = a.cos_in;
+        v.radius = static_cast<float>(options.radius_pixels * memory.arrivals.length[i] / g.view.focal());
+        v.pixel = path_tag::pixel(tag);
+        v.material = a.material;
+        v.primitive = a.primitive;
+        mine.points.push_back(v);
+      }
     };
+    memory.arrivals.count = 0;
     for (size_t i = begin; i < end; ++i) {
       const uint32_t pixel = pixels[i / per_pixel];
       const int x = static_cast<int>(pixel % width), y = static_cast<int>(pixel / width);
@@ -101,10 +110,13 @@ VisibilityPoints trace_visibility_points(const Tracer& tracer, const optics::Opt
       }
       direction = glm::normalize(g.view.ray_direction(x + 0.5, y + 0.5));
       const SurfacePoint point = stored_point(g, scene, x, y);
-      if (walk.meet(point, glm::length(point.position - origin), origin, direction, path, leave_point))
-        front.push(origin, direction, path);
+      walk.travel(glm::length(point.position - origin), path);
+      if (walk.meet(point, origin, direction, path, memory.arrivals)) front.push(origin, direction, path);
     }
-    while (front.count > 0) walk.advance(front, leave_point);
+    while (memory.front().count > 0) {
+      walk.advance(memory);
+      keep_arrivals();
+    }
   });
 
   VisibilityPoints all;

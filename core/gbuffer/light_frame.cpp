@@ -132,13 +132,13 @@ dvec3 LightFrame::ray_direction(double x, double y) const {
 }
 
 FrameRays::FrameRays(const LightFrame& f)
-    : orthographic_(f.orthographic),
-      origin_(f.origin),
-      forward_(f.forward),
-      corner_((f.orthographic ? f.origin : f.forward) - f.half_width * f.right - f.half_height * f.down),
-      step_x_(2.0 * f.half_width / f.width * f.right),
-      step_y_(2.0 * f.half_height / f.height * f.down),
-      area_(4.0 * f.half_width * f.half_height / (static_cast<double>(f.width) * f.height)) {}
+    : origin(f.origin),
+      forward(f.forward),
+      corner((f.orthographic ? f.origin : f.forward) - f.half_width * f.right - f.half_height * f.down),
+      step_x(2.0 * f.half_width / f.width * f.right),
+      step_y(2.0 * f.half_height / f.height * f.down),
+      area(4.0 * f.half_width * f.half_height / (static_cast<double>(f.width) * f.height)),
+      orthographic(f.orthographic) {}
 
 double LightFrame::measure_density(double x, double y) const {
   const double area = 4.0 * half_width * half_height / (static_cast<double>(width) * height);

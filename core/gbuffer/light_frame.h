@@ -37,29 +37,29 @@ struct LightFrame {
 };
 
 // The rays of a frame, one after the other: what does not depend on the image point is worked out once.
-class FrameRays {
- public:
+struct FrameRays {
+  dvec3 origin{0.0}, forward{0.0};
+  dvec3 corner{0.0}, step_x{0.0},
+      step_y{0.0};    // of points on the plane at distance 1; orthographic: of origins
+  double area = 0.0;  // of a texel on that plane
+  bool orthographic = false;
+
+  FrameRays() = default;
   explicit FrameRays(const LightFrame& frame);
   // The ray through image point (x, y), and the measure_density there.
   void ray(double x, double y, dvec3& ray_origin, dvec3& ray_direction, double& density) const {
-    const dvec3 point = corner_ + x * step_x_ + y * step_y_;
-    density = area_;
-    if (orthographic_) {
+    const dvec3 point = corner + x * step_x + y * step_y;
+    density = area;
+    if (orthographic) {
       ray_origin = point;
-      ray_direction = forward_;
+      ray_direction = forward;
       return;
     }
     const double scale = 1.0 / std::sqrt(glm::dot(point, point));
-    ray_origin = origin_;
+    ray_origin = origin;
     ray_direction = scale * point;
     density *= scale * scale * scale;
   }
-
- private:
-  bool orthographic_;
-  dvec3 origin_, forward_;
-  dvec3 corner_, step_x_, step_y_;  // of points on the plane at distance 1; orthographic: of origins
-  double area_;                     // of a texel on that plane
 };
 
 // The frames of `light`, each resolution x resolution texels. `targets` are boxes around what is to be seen:

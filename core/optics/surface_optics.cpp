@@ -75,10 +75,17 @@ SurfaceOptics describe(const Material& m, OpticsTable& table) {
     }
   }
   s.diffuse = s.base > 0.0 && s.color != dvec3(0.0);
+  s.tag = surface_tag::of(s);
   return s;
 }
 
 }  // namespace
+
+uint64_t surface_tag::of(const SurfaceOptics& s) {
+  return (s.specular ? kSpecular : 0) | (s.diffuse ? kDiffuse : 0) | (s.interface ? kInterface : 0) |
+         (s.coated ? kCoated : 0) | (s.thin ? kThin : 0) | (s.conductor ? kConductor : 0) |
+         uint64_t{s.inner_medium} << kInnerShift | uint64_t{s.outer_medium} << kOuterShift;
+}
 
 OpticsTable make_optics(const Scene& scene) {
   OpticsTable table;

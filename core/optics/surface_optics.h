@@ -46,7 +46,16 @@ struct SurfaceOptics {
   dvec3 diffuse_scale{0.0};         // rho / (pi eta^2 (1 - rho F_dr)), or rho / pi without interface, times
                                     // the weight of the base
   uint16_t inner_medium = 0, outer_medium = 0;  // into OpticsTable::media; of interfaces
+  uint64_t tag = 0;                             // flags and media once more (surface_tag)
 };
+
+// Flags and media of a surface in one word, for code that works on many surfaces at once.
+namespace surface_tag {
+inline constexpr uint64_t kSpecular = 1, kDiffuse = 2, kInterface = 4, kCoated = 8, kThin = 16,
+                          kConductor = 32;
+inline constexpr int kInnerShift = 16, kOuterShift = 32;
+uint64_t of(const SurfaceOptics& surface);
+}  // namespace surface_tag
 
 struct OpticsTable {
   std::vector<SurfaceOptics> materials;  // one a material of the scene

@@ -16,11 +16,11 @@ SurfaceTable::SurfaceTable(const Scene& scene, bool with_entries)
       e.plane = glm::dot(dvec3(e.normal), a);
       for (const vec3& edge : {ab, ac})
         e.reach = std::max({e.reach, std::abs(edge.x), std::abs(edge.y), std::abs(edge.z)});
-      e.material = scene.triangle_material[i];
       // One minus half the square of a float's rounding cannot be told from one: a few ulps are "the same".
-      e.flat = true;
+      bool flat = true;
       for (const uint32_t v : {t.x, t.y, t.z})
-        e.flat = e.flat && glm::length(scene.normals[v] - e.normal) < 4e-7f;
+        flat = flat && glm::length(scene.normals[v] - e.normal) < 4e-7f;
+      e.material_flat = scene.triangle_material[i] | (flat ? Entry::kFlat : 0);
     }
   });
 }

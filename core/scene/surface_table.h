@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace hybray {
@@ -23,14 +25,27 @@ class SurfaceTable {
     const Entry& e = entries_[primitive];
     SurfacePoint p;
     p.primitive = primitive;
-    p.material = e.material;
+    p.material = e.material();
     p.geometric_normal = dvec3(e.normal);
     p.position = hit - (glm::dot(p.geometric_normal, hit) - e.plane) * p.geometric_normal;
-    p.shading_normal = e.flat ? p.geometric_normal : interpolated(primitive, u, v, e.normal);
+    p.shading_normal = e.flat() ? p.geometric_normal : interpolated(primitive, u, v, e.normal);
     const double largest = std::max({std::abs(p.position.x), std::abs(p.position.y), std::abs(p.position.z)});
     p.offset = kSurfaceOffset * std::max(largest, static_cast<double>(e.reach));
     return p;
   }
+
+  // What the table keeps of a triangle, for code that works out many points at once.
+  struct alignas(32) Entry {
+    static constexpr uint32_t kFlat = uint32_t{1} << 31;  // the vertices' normals are the triangle's own
+    double plane = 0.0;                                   // dot(normal, x) of the points x of the triangle
+    vec3 normal{0.0f};                                    // geometric
+    float reach = 0.0f;          // largest coordinate of the two edges from the first vertex
+    uint32_t material_flat = 0;  // material, and kFlat
+    uint32_t material() const { return material_flat & ~kFlat; }
+    bool flat() const { return (material_flat & kFlat) != 0; }
+  };
+  std::span<const Entry> entries() const { return entries_; }
+  const Scene& scene() const { return *scene_; }
 
   // Fetches what point() will read of a triangle: its entry, or what the entry points to.
   void prefetch_entry(uint32_t primitive) const {
@@ -39,20 +54,12 @@ class SurfaceTable {
     __builtin_prefetch(&scene_->triangles[primitive]);
   }
   void prefetch_normals(uint32_t primitive) const {
-    if (primitive >= entries_.size() || entries_[primitive].flat) return;
+    if (primitive >= entries_.size() || entries_[primitive].flat()) return;
     const uvec3& t = scene_->triangles[primitive];
     for (const uint32_t vertex : {t.x, t.y, t.z}) __builtin_prefetch(&scene_->normals[vertex]);
   }
 
  private:
-  struct alignas(32) Entry {
-    double plane = 0.0;  // dot(normal, x) of the points x of the triangle
-    vec3 normal{0.0f};   // geometric
-    float reach = 0.0f;  // largest coordinate of the two edges from the first vertex
-    uint32_t material = 0;
-    bool flat = false;  // the vertices' normals are the triangle's own
-  };
-
   dvec3 interpolated(uint32_t primitive, float u, float v, const vec3& geometric) const {
     const uvec3& t = scene_->triangles[primitive];
     const std::vector<vec3>& normals = scene_->normals;

@@ -1,5 +1,6 @@
 // `hybray doctor`: what this program runs on, what would make its numbers wander, what is missing, and the
 // command that mends it.
+#include "core/base/lanes.h"
 #include "core/base/parallel.h"
 #include "core/tracer/tracer.h"
 #include "harness/cli/commands.h"
@@ -43,6 +44,8 @@ void report_program() {
       fmt::format("{}, {} build, {}", version_line(), build.build_type, build.compiler),
       build.build_type == "Release" ? "" : "times need a release build: scripts/build.sh release");
   say(Finding::good, "Embree", embree_version());
+  say(Finding::good, "vector code",
+      fmt::format("{} of {}", lanes_target(), fmt::join(lanes_targets(), ", ")));
 }
 
 void report_processor() {

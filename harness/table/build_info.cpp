@@ -1,6 +1,7 @@
 #include "harness/table/build_info.h"
 
 #include "core/base/hash.h"
+#include "core/base/lanes.h"
 #include "core/tracer/tracer.h"
 #include "harness/table/files.h"
 #include "hybray_build.h"  // made by CMake
@@ -33,7 +34,8 @@ BuildInfo build_info() {
                     {"CLI11", HYBRAY_CLI11_VERSION},
                     {"spdlog", HYBRAY_SPDLOG_VERSION},
                     {"fmt", HYBRAY_FMT_VERSION},
-                    {"xxHash", HYBRAY_XXHASH_VERSION}};
+                    {"xxHash", HYBRAY_XXHASH_VERSION},
+                    {"Highway", fmt::format("{}, {}", HYBRAY_HWY_VERSION, lanes_target())}};
   return info;
 }
 

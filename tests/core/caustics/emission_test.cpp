@@ -3,12 +3,16 @@
 #include "core/caustics/emission.h"
 
 #include "core/base/error.h"
+#include "core/base/lanes.h"
+#include "core/caustics/emission_lanes.h"
+#include "core/optics/specular_step.h"
 #include "tests/core/caustics/caustic_scenes.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -362,6 +366,52 @@ TEST(Emission, APathIsAFunctionOfItsNumberAndTheSeed) {
           same_as_other += c.start(i).direction == s.direction && c.start(i).origin == s.origin;
       }
       EXPECT_LE(same_as_other, 1u);
+    }
+  }
+}
+
+TEST(Emission, ManyPathsAtOnceAreTheSamePathsBitByBitOnEveryInstructionSet) {
+  const auto front = std::make_unique<PathFront>();
+  std::array<uint32_t, PathFront::kAllocated> texels{};
+  for (const Light& light : lamps()) {
+    const Lit lit(light);
+    for (const EmissionKind kind : {EmissionKind::map, EmissionKind::mixture}) {
+      const Emission e = lit.emission(kind, kind == EmissionKind::map ? 500.0 : 900.0, 11);
+      const uint64_t first = 3, count = e.from_map().paths - first;  // not a whole number of vectors
+      double emitted = -1.0;
+      for (const std::string& target : lanes_targets()) {
+        use_lanes_target(target);
+        front->count = 0;
+        const double sum = start_map_paths(e.from_map(), first, count, 5, *front, texels);
+        EXPECT_TRUE(emitted == -1.0 || sum == emitted) << target;
+        emitted = sum;
+        size_t at = 0;
+        double expected = 0.0;
+        for (uint64_t i = first; i < first + count; ++i) {
+          const PathStart s = e.start(i);
+          const double mean = optics::mean(s.flux);
+          expected += mean;
+          if (!(mean > 0.0)) continue;
+          ASSERT_LT(at, front->count);
+          const Path path = front->path(at);
+          ASSERT_EQ(front->origins[at], vec3(s.origin)) << target;
+          ASSERT_EQ(front->directions[at], vec3(s.direction)) << target;
+          ASSERT_EQ(path.weight, s.flux) << target;
+          ASSERT_EQ(path.initial, mean);
+          ASSERT_EQ(path.length, 0.0);
+          ASSERT_EQ(path.number, i);
+          ASSERT_EQ(path.medium, 5);
+          ASSERT_EQ(path.events, 0);
+          ASSERT_TRUE(path.in_map);
+          const MapTexel& t = lit.map.texels[texels[at]];
+          ASSERT_EQ((std::array{uint32_t{t.x}, uint32_t{t.y}, uint32_t{t.frame}}),
+                    (std::array{uint32_t{s.x}, uint32_t{s.y}, s.frame}));
+          ++at;
+        }
+        EXPECT_EQ(at, front->count);
+        EXPECT_NEAR(emitted, expected, 1e-13 * expected);
+      }
+      use_lanes_target("");
     }
   }
 }

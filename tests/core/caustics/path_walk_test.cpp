@@ -30,18 +30,18 @@ class PathWalkAtEdges : public testing::Test {
     options.mode = TraceMode::single;
     WalkCounts counts;
     PathWalk walk(prepared_.tracer, prepared_.caustic.optics, options, counts);
-    const auto front = std::make_unique<PathFront>();
+    const auto memory = std::make_unique<WalkMemory>();
     Path path;
     path.weight = dvec3(1.0), path.initial = 1.0;
-    for (path.number = 0; front->count == 0 || front->paths[0].medium == 0; ++path.number) {
+    for (path.number = 0; memory->front().count == 0 || memory->front().path(0).medium == 0; ++path.number) {
       counts = {};
-      front->count = 0;
-      front->push(target - 0.5 * direction, direction, path);
-      walk.advance(*front, [](auto&&...) {});
+      memory->front().count = 0;
+      memory->front().push(target - 0.5 * direction, direction, path);
+      walk.advance(*memory);
       if (path.number == 1000) ADD_FAILURE() << "no path enters the prism";
       if (path.number == 1000) return 0;
     }
-    walk.advance(*front, [](auto&&...) {});
+    walk.advance(*memory);
     return counts.medium_mismatches;
   }
 

@@ -42,7 +42,8 @@ std::vector<Photon> random_photons(const Scene& scene, size_t count) {
     p.position = random_color(i, 0);
     p.normal = random_unit_vector(i, 3);
     p.flux = random_color(i, 5);
-    p.shading_ratio = static_cast<float>(unit(i, 8) < 0.05 ? 0.0 : 2.0 * unit(i, 8));
+    // Some from behind the surface, which carry nothing.
+    p.direction = unit(i, 8) < 0.05 ? p.normal : glm::normalize(0.8f * random_unit_vector(i, 11) - p.normal);
     p.cos_in = static_cast<float>(unit(i, 9));
     p.primitive = static_cast<uint32_t>(random_bits(i, 10, 0, kSeed) % scene.primitive_count());
     p.material = scene.material_of(p.primitive);
@@ -80,13 +81,13 @@ TEST(PhotonMaps, BothKindsAreTheSumOverAllPairs) {
       if (glm::length(dvec3(photon.position) - dvec3(v.position)) > r) continue;
       const bool same_side = glm::dot(dvec3(photon.normal), dvec3(v.normal)) > std::cos(std::numbers::pi / 4);
       turned += !same_side;
-      if (!same_side || photon.shading_ratio == 0.0f) continue;
+      if (!same_side || photon.shading_ratio() == 0.0f) continue;
       ++pairs;
       truth[v.pixel] +=
           dvec3(v.weight) * dvec3(photon.flux) *
           optics::diffuse_brdf(p.caustic.optics.materials[v.material], static_cast<double>(photon.cos_in),
                                static_cast<double>(v.cos_out)) *
-          (static_cast<double>(photon.shading_ratio) / (std::numbers::pi * r * r));
+          (static_cast<double>(photon.shading_ratio()) / (std::numbers::pi * r * r));
     }
   ASSERT_GT(pairs, 1000u);
   ASSERT_GT(turned, pairs);
@@ -181,6 +182,7 @@ struct Pair {
   Pair() {
     photon.position = vec3(0.1f, 0.0f, 0.0f);
     photon.normal = vec3(0.0f, 1.0f, 0.0f);
+    photon.direction = vec3(0.0f, -1.0f, 0.0f);
     photon.flux = vec3(1.0f);
     VisibilityPoint v;
     v.normal = vec3(0.0f, 1.0f, 0.0f);
@@ -225,7 +227,7 @@ TEST(PhotonMaps, CountOnlyPhotonsOfTheSameSurfaceAndSide) {
     EXPECT_EQ(slanted.count(p), counts) << degrees;
   }
   Pair turned_away;
-  turned_away.photon.shading_ratio = 0.0f;
+  turned_away.photon.direction = turned_away.photon.normal;
   EXPECT_EQ(turned_away.count(p), 0u);
   for (const auto& [distance, counts] : {std::pair(0.1999f, 1u), std::pair(0.2001f, 0u)}) {
     Pair apart;

@@ -105,7 +105,7 @@ TEST(PhotonTrace, NothingIsNegativeOrNotANumber) {
       ASSERT_GE(photon.flux[c], 0.0f);
       ASSERT_TRUE(std::isfinite(photon.flux[c]) && std::isfinite(photon.position[c]));
     }
-    ASSERT_TRUE(std::isfinite(photon.shading_ratio) && photon.shading_ratio >= 0.0f);
+    ASSERT_TRUE(std::isfinite(photon.shading_ratio()) && photon.shading_ratio() >= 0.0f);
     ASSERT_NEAR(glm::length(photon.direction), 1.0f, 1e-5f);
     ASSERT_LT(glm::dot(photon.direction, photon.normal), 0.0f);
   });

@@ -1,0 +1,495 @@
+// First of all: compiles this file once for each instruction set.
+// clang-format off
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/caustics/path_walk_lanes.cpp"
+#include <hwy/foreach_target.h>
+// clang-format on
+
+#include "core/base/exponential-inl.h"
+#include "core/base/fields-inl.h"
+#include "core/base/hash-inl.h"
+#include "core/base/lanes-inl.h"
+#include "core/caustics/path_walk.h"
+#include "core/optics/fresnel-inl.h"
+
+#include <cstddef>
+#include <cstring>
+
+HWY_BEFORE_NAMESPACE();
+namespace hybray::caustics {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+using hybray::HWY_NAMESPACE::Vec3Lanes;
+
+// At most eight doubles: sums over lanes are kept by lane of eight, so that they do not depend on the width.
+constexpr size_t kMostLanes = 8;
+using D = hn::CappedTag<double, kMostLanes>;
+using DU = hn::RebindToUnsigned<D>;
+using DI = hn::RebindToSigned<D>;
+using DF = hn::Rebind<float, D>;
+using DF32I = hn::Rebind<int32_t, D>;
+using DF32U = hn::Rebind<uint32_t, D>;
+using V = hn::Vec<D>;
+using VU = hn::Vec<DU>;
+using VI = hn::Vec<DI>;
+using VF = hn::Vec<DF>;
+using VF32I = hn::Vec<DF32I>;
+using M = hn::Mask<D>;
+using Vec3 = Vec3Lanes<V>;
+using Vec3f = Vec3Lanes<VF>;
+
+// Terms of a FluxLedger, summed by lane.
+struct LedgerLanes {
+  enum Term { deposited, direct, absorbed, escaped, truncated, balance, kTerms };
+  alignas(64) double sums[kTerms][kMostLanes] = {};
+
+  HWY_INLINE void add(Term term, size_t first, M mask, V value) {
+    const D d;
+    double* place = &sums[term][first % kMostLanes];
+    hn::Store(hn::Add(hn::Load(d, place), hn::IfThenElseZero(mask, value)), d, place);
+  }
+  double total(Term term) const {
+    double sum = 0.0;
+    for (const double lane : sums[term]) sum += lane;
+    return sum;
+  }
+};
+
+HWY_INLINE V mean(const Vec3& v) {
+  return hn::Mul(hn::Add(hn::Add(v.x, v.y), v.z), hn::Set(D(), 1.0 / 3.0));
+}
+HWY_INLINE Vec3 promoted(const Vec3f& v) {
+  const D d;
+  return {hn::PromoteTo(d, v.x), hn::PromoteTo(d, v.y), hn::PromoteTo(d, v.z)};
+}
+HWY_INLINE Vec3f demoted(const Vec3& v) {
+  const DF df;
+  return {hn::DemoteTo(df, v.x), hn::DemoteTo(df, v.y), hn::DemoteTo(df, v.z)};
+}
+HWY_INLINE Vec3f load(const vec3* from) {
+  Vec3f v;
+  hn::LoadInterleaved3(DF(), &from->x, v.x, v.y, v.z);
+  return v;
+}
+HWY_INLINE M flag(VU tag, uint64_t bits) {
+  return hn::RebindMask(D(), hn::TestBit(tag, hn::Set(DU(), bits)));
+}
+
+// Lanes that are set, packed to the front of what they are stored to.
+class Packed {
+ public:
+  HWY_INLINE explicit Packed(M mask) : packing_(mask) {}
+  HWY_INLINE size_t count() const { return packing_.count(); }
+  template <class V, class T>
+  HWY_INLINE void store(V v, T* to) const {
+    hn::StoreU(packing_.packed(v), hn::DFromV<V>(), to);
+  }
+  HWY_INLINE VF packed(VF v) const { return packing_.packed(v); }
+  HWY_INLINE Vec3f packed(const Vec3f& v) const { return {packed(v.x), packed(v.y), packed(v.z)}; }
+  HWY_INLINE void store(const Vec3f& v, vec3* to) const {
+    const Vec3f p = packed(v);
+    hn::StoreInterleaved3(p.x, p.y, p.z, DF(), &to->x);
+  }
+
+ private:
+  hybray::HWY_NAMESPACE::LanePacking<D> packing_;
+};
+
+// SurfaceTable::point and optics::facing.
+struct Surface {
+  Vec3 position;
+  Vec3 geometric, shading;  // on the side of arrival
+  V cos_incident, offset;
+  M from_inner;
+  VI material;
+};
+
+// What the table has of the triangles that one vector of paths met, copied together one vector ahead: loads
+// of whole structs are several times cheaper than gathers of their fields, and the copies have settled by
+// then.
+struct StagedTriangles {
+  using Entry = SurfaceTable::Entry;
+  alignas(64) Entry entries[kMostLanes];
+  alignas(64) vec3 normals[3][kMostLanes];  // of the vertices, where the lane's triangle is not flat
+  bool all_flat = true;
+
+  HWY_INLINE void stage(const SurfaceTable& table, const PathFront& from, size_t first, size_t lanes) {
+    const Scene& scene = table.scene();
+    all_flat = true;
+    for (size_t lane = 0; lane < lanes && first + lane < from.count; ++lane) {
+      const uint32_t primitive = from.hits[first + lane].primitive;
+      if (primitive >= table.entries().size()) continue;
+      entries[lane] = table.entries()[primitive];
+      if (entries[lane].flat()) continue;
+      all_flat = false;
+      const uvec3& t = scene.triangles[primitive];
+      normals[0][lane] = scene.normals[t.x], normals[1][lane] = scene.normals[t.y];
+      normals[2][lane] = scene.normals[t.z];
+    }
+  }
+};
+
+HWY_INLINE Vec3f interpolated_normals(const StagedTriangles& staged, VF u, VF v) {
+  const VF w = hn::Sub(hn::Sub(hn::Set(DF(), 1.0f), u), v);
+  return add(add(scale(w, load(staged.normals[0])), scale(u, load(staged.normals[1]))),
+             scale(v, load(staged.normals[2])));
+}
+
+// Halves of 64-bit lanes.
+HWY_INLINE hn::Vec<DF32U> low_half(VU v) {
+  return hn::TruncateTo(DF32U(), v);
+}
+HWY_INLINE hn::Vec<DF32U> high_half(VU v) {
+  return hn::TruncateTo(DF32U(), hn::ShiftRight<32>(v));
+}
+
+HWY_INLINE Surface surface_at(const StagedTriangles& staged, VF u, VF v, const Vec3& hit,
+                              const Vec3& direction) {
+  const D d;
+  const DU du;
+  const DF df;
+  using Entry = SurfaceTable::Entry;
+  static_assert(sizeof(Entry) == 4 * sizeof(double) && offsetof(Entry, plane) == 0 &&
+                offsetof(Entry, normal) == 8 && offsetof(Entry, reach) == 20 &&
+                offsetof(Entry, material_flat) == 24);
+  VU plane_bits, normal_xy, normal_z_reach, material_flat;
+  hn::LoadInterleaved4(du, reinterpret_cast<const uint64_t*>(staged.entries), plane_bits, normal_xy,
+                       normal_z_reach, material_flat);
+  const V plane = hn::BitCast(d, plane_bits);
+  const Vec3f normal{hn::BitCast(df, low_half(normal_xy)), hn::BitCast(df, high_half(normal_xy)),
+                     hn::BitCast(df, low_half(normal_z_reach))};
+  const V reach = hn::PromoteTo(d, hn::BitCast(df, high_half(normal_z_reach)));
+  const M flat = flag(material_flat, Entry::kFlat);
+
+  Surface s;
+  s.material = hn::BitCast(DI(), hn::And(material_flat, hn::Set(du, Entry::kFlat - 1)));
+  const Vec3 n = promoted(normal);
+  s.position = subtract(hit, scale(hn::Sub(dot(n, hit), plane), n));
+  Vec3 shading = n;
+  if (!staged.all_flat) {
+    const Vec3f sum = interpolated_normals(staged, u, v);
+    const VF length = hn::Sqrt(dot(sum, sum));
+    const Vec3f unit = scale(hn::Div(hn::Set(df, 1.0f), length), sum);
+    shading = select(flat, n, promoted(select(hn::Gt(length, hn::Set(df, 1e-6f)), unit, normal)));
+  }
+  const V largest =
+      hn::Max(hn::Max(hn::Abs(s.position.x), hn::Abs(s.position.y)), hn::Max(hn::Abs(s.position.z), reach));
+  s.offset = hn::Mul(hn::Set(d, kSurfaceOffset), largest);
+
+  s.from_inner = hn::Gt(dot(direction, n), hn::Zero(d));
+  s.geometric = negate_where(s.from_inner, n);
+  s.shading = negate_where(s.from_inner, shading);
+  const V cos_shading = hn::Neg(dot(direction, s.shading));
+  const M faces = hn::Gt(cos_shading, hn::Zero(d));
+  s.shading = select(faces, s.shading, s.geometric);
+  s.cos_incident = hn::IfThenElse(faces, cos_shading, hn::Neg(dot(direction, s.geometric)));
+  return s;
+}
+
+using Optics = optics::SurfaceOptics;
+using Materials = hybray::HWY_NAMESPACE::Fields<D, Optics>;
+using Media = hybray::HWY_NAMESPACE::Fields<D, optics::Medium>;
+
+// What is left of a weight after t metres (Beer-Lambert).
+HWY_INLINE Vec3 through_medium(const Media& media, V t, const Vec3& weight) {
+  const Vec3 absorption = media(&optics::Medium::absorption);
+  const auto kept = [&](V a)
+                        HWY_ATTR { return hybray::HWY_NAMESPACE::exp_of_negative(hn::Mul(hn::Neg(a), t)); };
+  return multiply(weight, {kept(absorption.x), kept(absorption.y), kept(absorption.z)});
+}
+
+// optics::split, times the weight: what a surface mirrors and lets through.
+struct Shares {
+  Vec3 back, through;
+  V base_entry, eta_cos, inverse_eta;
+};
+
+HWY_INLINE Shares shares_of(const Materials& materials, VU tag, M specular, const Surface& surface,
+                            const Vec3& weight) {
+  const D d;
+  const V zero = hn::Zero(d), one = hn::Set(d, 1.0);
+  const V metal = materials(&Optics::metal), clear = materials(&Optics::clear),
+          base = materials(&Optics::base);
+  const M has_metal = hn::And(specular, hn::Gt(metal, zero));
+  const M has_clear = hn::And(specular, hn::Gt(clear, zero)), has_base = hn::Gt(base, zero);
+  const M refracting = hn::AndNot(flag(tag, optics::surface_tag::kThin), has_clear);
+  const M coated = hn::And(hn::And(specular, has_base), flag(tag, optics::surface_tag::kCoated));
+  const Vec3 color = materials(&Optics::color);
+  const V outside = materials.element(&Optics::crossing, 0), inside = materials.element(&Optics::crossing, 1);
+
+  const M through_inside = hn::And(refracting, surface.from_inner);
+  const auto at = optics::HWY_NAMESPACE::refraction_at(d, surface.cos_incident,
+                                                       hn::IfThenElse(through_inside, inside, outside));
+  // The base of an opaque surface is met from outside, whichever side that is.
+  V coat = at.reflectance;
+  const M coat_differs = hn::And(coated, through_inside);
+  if (!hn::AllFalse(d, coat_differs))
+    coat = hn::IfThenElse(coat_differs,
+                          optics::HWY_NAMESPACE::refraction_at(d, surface.cos_incident, outside).reflectance,
+                          coat);
+  coat = hn::IfThenElseZero(coated, coat);
+
+  Vec3 reflectance{zero, zero, zero};
+  if (!hn::AllFalse(d, has_metal)) {
+    Vec3 mirrored = color;
+    const M conductor = hn::And(has_metal, flag(tag, optics::surface_tag::kConductor));
+    if (!hn::AllFalse(d, conductor)) {
+      const Vec3 eta = materials(&Optics::eta), k = materials(&Optics::k);
+      const V c = surface.cos_incident;
+      mirrored = select(conductor,
+                        Vec3{optics::HWY_NAMESPACE::fresnel_conductor(d, c, eta.x, k.x),
+                             optics::HWY_NAMESPACE::fresnel_conductor(d, c, eta.y, k.y),
+                             optics::HWY_NAMESPACE::fresnel_conductor(d, c, eta.z, k.z)},
+                        color);
+    }
+    reflectance = select(has_metal, scale(metal, mirrored), reflectance);
+  }
+  V clear_reflectance = at.reflectance;
+  if (!hn::AllTrue(d, hn::Or(refracting, hn::Not(has_clear)))) {
+    const V sheet = hn::Div(hn::Mul(hn::Set(d, 2.0), at.reflectance), hn::Add(one, at.reflectance));
+    clear_reflectance = hn::IfThenElse(refracting, at.reflectance, sheet);
+  }
+  const V mirrored_clear = hn::IfThenElseZero(has_clear, hn::Mul(clear, clear_reflectance));
+  const V mirrored_base = hn::IfThenElseZero(hn::And(specular, has_base), hn::Mul(base, coat));
+  const auto sum = [&](V r) HWY_ATTR { return hn::Add(hn::Add(r, mirrored_clear), mirrored_base); };
+  reflectance = {sum(reflectance.x), sum(reflectance.y), sum(reflectance.z)};
+  const V transmitted = hn::IfThenElseZero(has_clear, hn::Mul(clear, hn::Sub(one, clear_reflectance)));
+
+  Shares s;
+  s.back = multiply(weight, reflectance);
+  s.through = multiply(weight, scale(transmitted, color));
+  s.base_entry =
+      hn::IfThenElse(specular, hn::IfThenElseZero(has_base, hn::Mul(base, hn::Sub(one, coat))), base);
+  s.eta_cos = hn::IfThenElseZero(refracting, at.eta_cos);
+  s.inverse_eta = hn::IfThenElse(surface.from_inner, outside, inside);
+  return s;
+}
+
+// optics::reflection.
+HWY_INLINE Vec3 reflection(const Surface& surface, const Vec3& direction) {
+  const D d;
+  const Vec3 out = optics::HWY_NAMESPACE::reflected(direction, surface.shading);
+  const M leaves = hn::Gt(dot(out, surface.geometric), hn::Zero(d));
+  if (HWY_LIKELY(hn::AllTrue(d, leaves))) return out;
+  return select(leaves, out, optics::HWY_NAMESPACE::reflected(direction, surface.geometric));
+}
+
+// Four values of each lane, the lanes packed, as one quarter of a photon.
+HWY_INLINE void store_quarter(const Packed& lanes, const Vec3f& v, VF w, Photon* photons, size_t quarter) {
+  alignas(64) float quads[kMostLanes][4];
+  hn::StoreInterleaved4(v.x, v.y, v.z, w, DF(), &quads[0][0]);
+  for (size_t i = 0; i < lanes.count(); ++i)
+    std::memcpy(reinterpret_cast<char*>(photons + i) + sizeof(quads[0]) * quarter, quads[i],
+                sizeof(quads[0]));
+}
+
+HWY_INLINE void arrive(const Packed& lanes, const Surface& surface, const Vec3f& direction,
+                       const Vec3& weight, V length, VU tag, VU primitive, Arrivals& to) {
+  static_assert(offsetof(Photon, cos_in) == 12 && offsetof(Photon, normal) == 16 &&
+                offsetof(Photon, material) == 28 && offsetof(Photon, direction) == 32 &&
+                offsetof(Photon, primitive) == 44 && offsetof(Photon, flux) == 48 &&
+                offsetof(Photon, events) == 60 && offsetof(Photon, missed_by_map) == 62);
+  const DU du;
+  const DF df;
+  const auto word = [&](VU v) HWY_ATTR { return hn::BitCast(df, hn::TruncateTo(DF32U(), v)); };
+  const VU missed = hn::IfThenElseZero(hn::Eq(hn::And(tag, hn::Set(du, path_tag::kInMap)), hn::Zero(du)),
+                                       hn::Set(du, uint64_t{1} << 16));
+  const VU events = hn::And(tag, hn::Set(du, path_tag::kEvents));
+  Photon* photons = &to.photons[to.count];
+  const auto quarter = [&](size_t i, const Vec3f& v, VF w)
+                           HWY_ATTR { store_quarter(lanes, lanes.packed(v), lanes.packed(w), photons, i); };
+  quarter(0, demoted(surface.position), hn::DemoteTo(df, surface.cos_incident));
+  quarter(1, demoted(surface.geometric), word(hn::BitCast(du, surface.material)));
+  quarter(2, direction, word(primitive));
+  quarter(3, demoted(weight), word(hn::Or(events, missed)));
+  lanes.store(length, &to.length[to.count]);
+  lanes.store(tag, &to.tag[to.count]);
+  to.count += lanes.count();
+}
+
+// Hits are scattered over memory: what the next lanes need is on its way while these are worked on.
+HWY_INLINE void prefetch(const SurfaceTable& table, const PathFront& from, size_t i, size_t lanes) {
+  for (size_t j = i + 3 * lanes; j < std::min(from.count, i + 4 * lanes); ++j)
+    table.prefetch_entry(from.hits[j].primitive);
+  for (size_t j = i + 2 * lanes; j < std::min(from.count, i + 3 * lanes); ++j)
+    table.prefetch_normals(from.hits[j].primitive);
+}
+
+void meet_triangles(const optics::OpticsTable& optics, const WalkOptions& options, const PathFront& from,
+                    PathFront& to, Arrivals& arrivals, LeftPaths& left, WalkCounts& counts) {
+  const D d;
+  const DU du;
+  const DF df;
+  const size_t lanes = hn::Lanes(d);
+  const SurfaceTable& table = optics.surfaces;
+  const V zero = hn::Zero(d);
+  const VU none = hn::Set(du, uint64_t{kNoPrimitive}), triangles = hn::Set(du, table.entries().size());
+  const VU low = hn::Set(du, path_tag::kMedium);
+  LedgerLanes ledger;
+  using Term = LedgerLanes;
+
+  StagedTriangles stages[2] = {};
+  if (from.count > 0) stages[0].stage(table, from, 0, lanes);
+  for (size_t i = 0; i < from.count; i += lanes) {
+    prefetch(table, from, i, lanes);
+    const StagedTriangles& staged = stages[i / lanes % 2];
+    stages[1 - i / lanes % 2].stage(table, from, i + lanes, lanes);
+    VF t32, primitive_bits, u, v;
+    hn::LoadInterleaved4(df, &from.hits[i].t, t32, primitive_bits, u, v);
+    const VU any_primitive = hn::PromoteTo(du, hn::BitCast(DF32U(), primitive_bits));
+    const M here = hn::FirstN(d, from.count - i);
+    const M misses = hn::And(here, hn::RebindMask(d, hn::Eq(any_primitive, none)));
+    const M valid = hn::And(here, hn::RebindMask(d, hn::Lt(any_primitive, triangles)));
+    Vec3 weight{hn::Load(d, &from.red[i]), hn::Load(d, &from.green[i]), hn::Load(d, &from.blue[i])};
+    ledger.add(Term::escaped, i, misses, mean(weight));
+    M leave = hn::AndNot(hn::Or(valid, misses), here);
+
+    if (!hn::AllFalse(d, valid)) {
+      const VU primitive = hn::IfThenElseZero(hn::RebindMask(du, valid), any_primitive);
+      const Vec3f direction_f = load(&from.directions[i]);
+      const Vec3 direction = promoted(direction_f);
+      const V t = hn::PromoteTo(d, t32);
+      const Vec3 hit = add(promoted(load(&from.origins[i])), scale(t, direction));
+      const Surface surface = surface_at(staged, u, v, hit, direction);
+      const Materials materials(optics.materials, surface.material, valid);
+      const VU surface_bits = materials(&Optics::tag), tag = hn::Load(du, &from.tag[i]);
+      const VU medium = hn::And(hn::ShiftRight<path_tag::kMediumShift>(tag), low);
+      const V length = hn::Add(hn::Load(d, &from.length[i]), t);
+      V absorbed = zero;
+      if (!hn::AllTrue(d, hn::Or(hn::RebindMask(d, hn::Eq(medium, hn::Zero(du))), hn::Not(valid)))) {
+        const Vec3 kept = through_medium(Media(optics.media, hn::BitCast(DI(), medium), valid), t, weight);
+        absorbed = hn::Sub(mean(weight), mean(kept));
+        weight = kept;
+      }
+      const V arriving = mean(weight);
+      const M specular = hn::And(valid, flag(surface_bits, optics::surface_tag::kSpecular));
+      M live = valid;
+      V base_entry, specular_sum = zero, after = zero;
+      M goes_on = hn::FirstN(d, 0), cut = goes_on, specular_live = goes_on;
+      Vec3 out_direction = direction, out_weight = weight, out_origin = hit;
+      VU out_tag = tag;
+
+      if (hn::AllFalse(d, specular)) {
+        base_entry = materials(&Optics::base);
+      } else {
+        const Shares shares = shares_of(materials, surface_bits, specular, surface, weight);
+        base_entry = shares.base_entry;
+        const V back = mean(shares.back), through = mean(shares.through);
+        specular_sum = hn::Add(back, through);
+        const VU events = hn::And(tag, hn::Set(du, path_tag::kEvents));
+        const M some = hn::And(specular, hn::Gt(specular_sum, zero));
+        const M may_go =
+            hn::RebindMask(d, hn::Lt(events, hn::Set(du, static_cast<uint64_t>(options.max_events))));
+        const M candidates = hn::And(some, may_go);
+        cut = hn::AndNot(may_go, some);
+
+        const VU dimension = hn::Add(hn::Set(du, uint64_t{kFirstWalkDimension}), hn::Add(events, events));
+        const VU stream = hybray::HWY_NAMESPACE::random_stream(hn::Load(du, &from.number[i]), options.seed);
+        const V choice = hybray::HWY_NAMESPACE::random_unit(d, stream, dimension);
+        const M mirrored = hn::Lt(hn::Mul(choice, specular_sum), back);
+        const V chosen = hn::IfThenElse(mirrored, back, through);
+        const V gain = hn::Div(specular_sum, chosen);
+        out_weight = scale(gain, select(mirrored, shares.back, shares.through));
+
+        const M thin = flag(surface_bits, optics::surface_tag::kThin);
+        const M bends = hn::AndNot(hn::Or(mirrored, thin), candidates);
+        const Vec3 bent = optics::HWY_NAMESPACE::refracted(direction, surface.shading, surface.cos_incident,
+                                                           shares.inverse_eta, shares.eta_cos);
+        const M plain = hn::And(hn::Gt(shares.eta_cos, zero), hn::Lt(dot(bent, surface.geometric), zero));
+        const M odd = hn::AndNot(plain, bends);
+        leave = hn::Or(leave, odd);
+        live = hn::AndNot(odd, valid);
+        out_direction = select(mirrored, reflection(surface, direction), select(bends, bent, direction));
+        const V step = hn::IfThenElse(mirrored, surface.offset, hn::Neg(surface.offset));
+        out_origin = add(surface.position, scale(step, surface.geometric));
+
+        after = specular_sum;
+        M survives = candidates;
+        const V wanted = hn::Mul(hn::Set(d, options.roulette_threshold), hn::Load(d, &from.initial[i]));
+        const M gambles = hn::And(candidates, hn::Lt(specular_sum, wanted));
+        if (!hn::AllFalse(d, gambles)) {
+          const V luck =
+              hybray::HWY_NAMESPACE::random_unit(d, stream, hn::Add(dimension, hn::Set(du, uint64_t{1})));
+          const M lost = hn::AndNot(hn::Lt(hn::Mul(luck, wanted), specular_sum), gambles);
+          survives = hn::AndNot(lost, candidates);
+          const Vec3 raised = scale(hn::Div(wanted, specular_sum), out_weight);
+          out_weight = select(gambles, raised, out_weight);
+          after = hn::IfThenElse(gambles, hn::IfThenZeroElse(lost, mean(out_weight)), after);
+        }
+        goes_on = hn::And(survives, live);
+        specular_live = hn::And(candidates, live);
+
+        // An interface that is crossed leads into the medium of its other side.
+        const VU inner = hn::And(hn::ShiftRight<optics::surface_tag::kInnerShift>(surface_bits), low);
+        const VU outer = hn::And(hn::ShiftRight<optics::surface_tag::kOuterShift>(surface_bits), low);
+        const auto from_inner = hn::RebindMask(du, surface.from_inner);
+        const M interface = hn::And(live, flag(surface_bits, optics::surface_tag::kInterface));
+        const auto wrong = hn::Ne(medium, hn::IfThenElse(from_inner, inner, outer));
+        counts.medium_mismatches += hn::CountTrue(d, hn::And(interface, hn::RebindMask(d, wrong)));
+        const VU beyond =
+            hn::IfThenElse(hn::RebindMask(du, bends), hn::IfThenElse(from_inner, outer, inner), medium);
+        out_tag = hn::Or(hn::AndNot(hn::ShiftLeft<path_tag::kMediumShift>(low), tag),
+                         hn::ShiftLeft<path_tag::kMediumShift>(beyond));
+        out_tag = hn::Add(out_tag, hn::Set(du, uint64_t{1}));
+      }
+
+      const V entry = hn::IfThenElseZero(flag(surface_bits, optics::surface_tag::kDiffuse),
+                                         hn::Mul(arriving, base_entry));
+      const M enters = hn::And(live, hn::Gt(entry, zero));
+      const M first = hn::RebindMask(d, hn::Eq(hn::And(tag, hn::Set(du, path_tag::kEvents)), hn::Zero(du)));
+      ledger.add(Term::direct, i, hn::And(enters, first), entry);
+      ledger.add(Term::deposited, i, hn::AndNot(first, enters), entry);
+      ledger.add(Term::absorbed, i, live, hn::Add(absorbed, hn::Sub(hn::Sub(arriving, entry), specular_sum)));
+      ledger.add(Term::truncated, i, hn::And(live, cut), specular_sum);
+      ledger.add(Term::balance, i, specular_live, hn::Sub(specular_sum, after));
+
+      const Packed arriving_lanes(hn::AndNot(first, enters));
+      if (arriving_lanes.count() > 0)
+        arrive(arriving_lanes, surface, direction_f, weight, length, tag, primitive, arrivals);
+      const Packed going(goes_on);
+      if (going.count() > 0) {
+        const size_t at = to.count;
+        going.store(demoted(out_origin), &to.origins[at]);
+        going.store(demoted(out_direction), &to.directions[at]);
+        going.store(out_weight.x, &to.red[at]);
+        going.store(out_weight.y, &to.green[at]);
+        going.store(out_weight.z, &to.blue[at]);
+        going.store(hn::Load(d, &from.initial[i]), &to.initial[at]);
+        going.store(length, &to.length[at]);
+        going.store(hn::Load(du, &from.number[i]), &to.number[at]);
+        going.store(out_tag, &to.tag[at]);
+        to.count += going.count();
+      }
+    }
+
+    if (HWY_UNLIKELY(!hn::AllFalse(d, leave))) {
+      const Packed odd(leave);
+      odd.store(hn::TruncateTo(DF32U(), hn::Iota(du, i)), &left.index[left.count]);
+      left.count += odd.count();
+    }
+  }
+
+  counts.ledger.deposited += ledger.total(Term::deposited);
+  counts.ledger.direct += ledger.total(Term::direct);
+  counts.ledger.absorbed += ledger.total(Term::absorbed);
+  counts.ledger.escaped += ledger.total(Term::escaped);
+  counts.ledger.truncated += ledger.total(Term::truncated);
+  counts.ledger.balance += ledger.total(Term::balance);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace hybray::caustics
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace hybray::caustics {
+
+HWY_EXPORT(meet_triangles);
+
+void meet_triangles(const optics::OpticsTable& optics, const WalkOptions& options, const PathFront& from,
+                    PathFront& to, Arrivals& arrivals, LeftPaths& left, WalkCounts& counts) {
+  HWY_DYNAMIC_DISPATCH(meet_triangles)(optics, options, from, to, arrivals, left, counts);
+}
+
+}  // namespace hybray::caustics
+#endif
