@@ -30,13 +30,9 @@ struct Subject {
 
 const Experiment* experiment_of(const Environment& environment, const fs::path& table,
                                 const TableOrigin& origin) {
-  std::vector<std::string> known;
-  for (const Experiment& experiment : environment.experiments) {
-    if (experiment.name == origin.experiment) return &experiment;
-    known.push_back(experiment.name);
-  }
+  if (const Experiment* found = find_experiment(origin.experiment, environment.experiments)) return found;
   throw InputError((table.parent_path() / "manifest.json").string(),
-                   unknown_name("experiment", origin.experiment, known));
+                   unknown_experiment(origin.experiment, environment.experiments));
 }
 
 // The file that holds the table's gates: the one that was named, or the config that the manifest names, in

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/hash.h"
+#include "harness/config/parameter_rules.h"
 #include "harness/sweep/run_record.h"
 #include "harness/table/csv.h"
 #include "harness/table/files.h"
@@ -71,11 +72,8 @@ void check_same_run(const Part& first, const Part& part) {
 
 const Experiment& experiment_of(const Part& part, std::span<const Experiment> experiments) {
   const std::string name = part.manifest.at("config").at("experiment");
-  const auto found = std::find_if(experiments.begin(), experiments.end(),
-                                  [&](const Experiment& e) { return e.name == name; });
-  if (found == experiments.end())
-    throw InputError(part.folder.string(), "this program has no experiment \"" + name + "\"");
-  return *found;
+  if (const Experiment* found = find_experiment(name, experiments)) return *found;
+  throw InputError(part.folder.string(), unknown_experiment(name, experiments));
 }
 
 // The rows of all parts, by id.
