@@ -178,8 +178,7 @@ Row run(const Point& point, Workspace& workspace) {
     display->report(row);
   }
   if (picture)
-    write_pictures(point, workspace, setup, first, truth ? &truth->image.mean : nullptr,
-                   display ? display->flip() : Image2D<float>());
+    write_pictures(point, workspace, setup, first, truth, display ? display->flip() : Image2D<float>());
   if (timing) add_times(row, setup, maps, repeats, workspace.settings().seed);
   return row;
 }
