@@ -98,12 +98,6 @@ void add_work(Row& row, const Frame& frame, const Setup& setup, const MapSet& ma
     row["mixed_pixels_skipped"] = static_cast<int64_t>(setup.gbuffer.depth.size() - frame.mixed_pixels);
 }
 
-void put_interval(Row& row, const std::string& name, const metrics::Interval& interval) {
-  row[name] = interval.value;
-  row[name + "_low"] = interval.low;
-  row[name + "_high"] = interval.high;
-}
-
 }  // namespace
 
 Row run(const Point& point, Workspace& workspace) {
