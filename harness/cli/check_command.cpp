@@ -134,7 +134,11 @@ int check_command(const Environment& environment, const CheckOptions& options) {
   prove_writable(options.junit);
   prove_writable(options.markdown);
   std::vector<TableReport> reports;
-  for (const Subject& subject : subjects) reports.push_back(check(subject));
+  for (const Subject& subject : subjects) {
+    if (!subject.points)
+      log_warning(subject.table.file() + ": no manifest.json of it says how many rows it should have");
+    reports.push_back(check(subject));
+  }
   fmt::print("{}", text_report(reports));
   write_report(options.junit, junit_report(reports));
   write_report(options.markdown, markdown_report(reports));

@@ -150,7 +150,10 @@ TEST_F(CheckProgramTest, FindsAConfigInThePresentFolderAndTakesOneByName) {
       {"check", "out/toy.csv"},
       "out/toy.csv: which config it is of is not known, since no manifest.json of it is beside it; name "
       "the config with --gates");
-  EXPECT_EQ(hybray({"check", "out/toy.csv", "--gates", "toy.json"}).exit_code, kOk);
+  const test::Outcome named = hybray({"check", "out/toy.csv", "--gates", "toy.json"});
+  EXPECT_EQ(named.exit_code, kOk);
+  EXPECT_EQ(named.err,
+            "hybray: warning: out/toy.csv: no manifest.json of it says how many rows it should have\n");
 }
 
 TEST_F(CheckProgramTest, MissesPointsWithoutARow) {
