@@ -23,12 +23,8 @@ bool is_entry_name(std::string_view name) {
   return name.size() == 16 && name.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
-bool is_temporary(const fs::path& file) {
-  return file.extension() == ".tmp";
-}
-
 bool is_ours(const fs::path& file) {
-  return file.extension() == ".part" || is_temporary(file) || file.filename() == kLockFile;
+  return file.extension() == ".part" || file.extension() == ".tmp" || file.filename() == kLockFile;
 }
 
 std::vector<fs::path> children(const fs::path& folder) {
@@ -95,12 +91,6 @@ std::vector<CacheEntry> cache_entries(const fs::path& cache, bool with_keys) {
   std::stable_sort(entries.begin(), entries.end(),
                    [](const CacheEntry& a, const CacheEntry& b) { return a.used < b.used; });
   return entries;
-}
-
-void remove_leftovers(const fs::path& entry) {
-  std::error_code ignored;
-  for (const fs::path& file : children(entry))
-    if (is_temporary(file)) fs::remove(file, ignored);
 }
 
 bool remove_entry(const CacheEntry& entry) {

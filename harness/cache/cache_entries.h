@@ -45,9 +45,6 @@ struct CacheEntry {
 // read only where asked for.
 std::vector<CacheEntry> cache_entries(const std::filesystem::path& cache, bool with_keys = false);
 
-// Removes what processes that were killed while they wrote have left. To be called with the lock held.
-void remove_leftovers(const std::filesystem::path& entry);
-
 // Removes what the cache has made of an entry, and its folder if that is all there is. Returns whether it is
 // gone; an entry that another process works on stays.
 bool remove_entry(const CacheEntry& entry);

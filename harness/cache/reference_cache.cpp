@@ -3,6 +3,7 @@
 #include "core/base/error.h"
 #include "harness/cache/cache_entries.h"
 #include "harness/cache/cache_part.h"
+#include "harness/table/files.h"
 
 #include <utility>
 
@@ -58,7 +59,7 @@ std::unique_ptr<EntryLock> ReferenceCache::lock(const std::string& key) {
     settings_.inform("waiting for another run, which makes the same reference");
     lock->wait();
   }
-  if (lock->held()) remove_leftovers(entry);
+  if (lock->held()) remove_unfinished_files(entry);  // of processes that were killed while they wrote
   return lock;
 }
 

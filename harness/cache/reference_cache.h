@@ -38,8 +38,6 @@ class ReferenceCache {
   // that key.
   std::unique_ptr<EntryLock> lock(const std::string& key);
 
-  const std::filesystem::path& folder() const { return settings_.folder; }
-
  private:
   bool make_room(const std::filesystem::path& entry, uint64_t bytes);
   void cannot_keep(const std::string& reason);

@@ -30,13 +30,9 @@ struct Subject {
 
 const Experiment* experiment_of(const Environment& environment, const fs::path& table,
                                 const TableOrigin& origin) {
-  std::vector<std::string> known;
-  for (const Experiment& experiment : environment.experiments) {
-    if (experiment.name == origin.experiment) return &experiment;
-    known.push_back(experiment.name);
-  }
+  if (const Experiment* found = find_experiment(origin.experiment, environment.experiments)) return found;
   throw InputError((table.parent_path() / "manifest.json").string(),
-                   unknown_name("experiment", origin.experiment, known));
+                   unknown_experiment(origin.experiment, environment.experiments));
 }
 
 // The file that holds the table's gates: the one that was named, or the config that the manifest names, in
@@ -138,7 +134,11 @@ int check_command(const Environment& environment, const CheckOptions& options) {
   prove_writable(options.junit);
   prove_writable(options.markdown);
   std::vector<TableReport> reports;
-  for (const Subject& subject : subjects) reports.push_back(check(subject));
+  for (const Subject& subject : subjects) {
+    if (!subject.points)
+      log_warning(subject.table.file() + ": no manifest.json of it says how many rows it should have");
+    reports.push_back(check(subject));
+  }
   fmt::print("{}", text_report(reports));
   write_report(options.junit, junit_report(reports));
   write_report(options.markdown, markdown_report(reports));

@@ -24,12 +24,11 @@ Wanted wanted(const CLI::Option& option) {
   return w;
 }
 
-std::vector<std::string> option_names(const CLI::App& app) {
+// "--output", "-o"; none of an argument.
+std::vector<std::string> names_of(const CLI::Option& option) {
   std::vector<std::string> names;
-  for (const CLI::Option* option : app.get_options()) {
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
-  }
+  for (const std::string& name : option.get_lnames()) names.push_back("--" + name);
+  for (const std::string& name : option.get_snames()) names.push_back("-" + name);
   return names;
 }
 
@@ -51,18 +50,17 @@ std::string values(const Wanted& w, std::span<const std::string> experiments) {
 // One `case` branch for the command at `path` ("run", "scene render", ...), then those below it.
 void add_branches(const CLI::App& app, const std::string& path, std::span<const std::string> experiments,
                   std::string& branches, std::string& paths) {
-  std::vector<std::string> words = option_names(app);
+  std::vector<std::string> words;
   std::string by_option, by_argument;
   for (const CLI::Option* option : app.get_options()) {
+    const std::vector<std::string> names = names_of(*option);
+    words.insert(words.end(), names.begin(), names.end());
     const std::string calls = values(wanted(*option), experiments);
     if (calls.empty()) continue;
     if (option->get_positional()) {
       by_argument += calls;
       continue;
     }
-    std::vector<std::string> names;
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
-    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
     by_option += fmt::format("        {}) COMPREPLY=({}); return ;;\n", fmt::join(names, "|"), calls);
   }
   for (const CLI::App* command : commands(app)) words.push_back(command->get_name());

@@ -3,8 +3,7 @@
 #include "harness/config/parameter_rules.h"
 #include "harness/config/schema.h"
 #include "harness/gate/gate_schema.h"
-
-#include <algorithm>
+#include "harness/table/text_table.h"
 
 #include <fmt/format.h>
 
@@ -54,10 +53,8 @@ std::string comparison_words(const Column& column) {
   return words.empty() ? "exact" : words;
 }
 
-using Cells = std::vector<std::string>;
-
-std::vector<Cells> parameter_table(const Experiment& experiment) {
-  std::vector<Cells> table{{"parameter", "unit", "default", "accepts", "meaning"}};
+TextTable parameter_table(const Experiment& experiment) {
+  TextTable table{{"parameter", "unit", "default", "accepts", "meaning"}};
   for (const Parameter& p : experiment.parameters) {
     const bool required = std::holds_alternative<std::monostate>(p.default_value);
     table.push_back(
@@ -66,8 +63,8 @@ std::vector<Cells> parameter_table(const Experiment& experiment) {
   return table;
 }
 
-std::vector<Cells> column_table(const Experiment& experiment) {
-  std::vector<Cells> table{{"column", "unit", "kind", "better", "accepted", "meaning"}};
+TextTable column_table(const Experiment& experiment) {
+  TextTable table{{"column", "unit", "kind", "better", "accepted", "meaning"}};
   table.push_back(
       {"id", "", "key", "", "", "Id of the point: a hash of its parameters, the seed and the scene."});
   for (const Column& c : experiment.columns)
@@ -75,33 +72,23 @@ std::vector<Cells> column_table(const Experiment& experiment) {
   return table;
 }
 
-// Columns padded to the same width, but for the last.
-void print_text(const std::vector<Cells>& table) {
-  std::vector<size_t> widths(table.front().size(), 0);
-  for (const Cells& row : table) {
-    for (size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  }
-  for (const Cells& row : table) {
-    std::string line;
-    for (size_t i = 0; i + 1 < row.size(); ++i) line += fmt::format("{:<{}}  ", row[i], widths[i]);
-    fmt::print("{}{}\n", line, row.back());
-  }
-}
-
-void print_markdown(const std::vector<Cells>& table) {
+// GitHub's Markdown; the first row is the head.
+std::string markdown_table(const TextTable& table) {
+  std::string text;
   for (size_t r = 0; r < table.size(); ++r) {
-    std::string line = "|";
+    text += "|";
     for (const std::string& cell : table[r]) {
       std::string escaped;
       for (const char c : cell) escaped += c == '|' ? std::string("\\|") : std::string(1, c);
-      line += " " + escaped + " |";
+      text += " " + escaped + " |";
     }
-    fmt::print("{}\n", line);
+    text += '\n';
     if (r > 0) continue;
-    std::string rule = "|";
-    for (size_t i = 0; i < table[r].size(); ++i) rule += "---|";
-    fmt::print("{}\n", rule);
+    text += "|";
+    for (size_t i = 0; i < table[r].size(); ++i) text += "---|";
+    text += '\n';
   }
+  return text;
 }
 
 }  // namespace
@@ -124,23 +111,22 @@ int describe_command(const Environment& environment, const DescribeOptions& opti
       fmt::print("suite\nConfigs that are run together, each with changes of its own; see --schema.\n");
     return kOk;
   }
-  std::vector<std::string> known;
-  for (const Experiment& e : environment.experiments) {
-    known.push_back(e.name);
-    if (e.name != options.experiment) continue;
-    if (options.format == DescribeFormat::schema) {
-      fmt::print("{}", config_schema_text(e));
-      return kOk;
-    }
-    const bool markdown = options.format == DescribeFormat::markdown;
-    const auto print = markdown ? print_markdown : print_text;
-    fmt::print("{}{}\n{}\n\n", markdown ? "## " : "", e.name, e.text);
-    print(parameter_table(e));
-    fmt::print("\n");
-    print(column_table(e));
+  const Experiment* experiment = find_experiment(options.experiment, environment.experiments);
+  if (!experiment)
+    throw InputError("describe", unknown_experiment(options.experiment, environment.experiments));
+  if (options.format == DescribeFormat::schema) {
+    fmt::print("{}", config_schema_text(*experiment));
     return kOk;
   }
-  throw InputError("describe", unknown_name("experiment", options.experiment, known));
+  const bool markdown = options.format == DescribeFormat::markdown;
+  const auto print = [&](const TextTable& table) {
+    fmt::print("{}", markdown ? markdown_table(table) : aligned_table(table));
+  };
+  fmt::print("{}{}\n{}\n\n", markdown ? "## " : "", experiment->name, experiment->text);
+  print(parameter_table(*experiment));
+  fmt::print("\n");
+  print(column_table(*experiment));
+  return kOk;
 }
 
 }  // namespace hybray

@@ -1,6 +1,7 @@
 // Messages for people, on stderr. Data never goes this way.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace hybray {
@@ -14,7 +15,9 @@ void log_info(const std::string& text);
 void log_warning(const std::string& text);
 void log_error(const std::string& text);
 
-// Whether stderr is a terminal that lines can be redrawn on.
+// Whether stderr is a terminal that lines can be redrawn on, and how wide it is: a longer line would wrap,
+// and only its end could be redrawn.
 bool stderr_is_terminal();
+size_t stderr_columns();
 
 }  // namespace hybray

@@ -31,8 +31,7 @@ void Progress::point_starts(size_t index, const std::string& label) {
   const std::string time = left < 0 ? "" : format_duration(left) + " left  ";
   std::string line = fmt::format("{} [{:#<{}}{:.<{}}] {}/{}  {}{}", title_, "", filled, "", kBar - filled,
                                  index + 1, costs_.size(), time, label);
-  constexpr size_t kColumns = 100;
-  if (line.size() > kColumns) line.resize(kColumns);
+  if (const size_t columns = stderr_columns(); line.size() >= columns) line.resize(columns - 1);
   fmt::print(stderr, "\r\x1b[K{}", line);
   std::fflush(stderr);
   drawn_ = true;

@@ -161,7 +161,7 @@ int run_job(const Environment& environment, const RunOptions& options, const Job
     return kOk;
   }
   Workspace workspace({environment.scene_paths, job.folder, static_cast<uint64_t>(job.config.seed),
-                       options.timing, options.threads, cache.get()});
+                       options.timing, cache.get()});
   RunRequest request{job.config, job.sweep, job.points, {}};
   request.choices = {job.assignments, job.filters,           options.timing, thread_count(), {},
                      options.fresh,   cache.get() != nullptr};

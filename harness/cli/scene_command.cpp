@@ -6,6 +6,7 @@
 #include "harness/cli/log.h"
 #include "harness/cli/scene_preview.h"
 #include "harness/experiments/resolution.h"
+#include "harness/table/text_table.h"
 
 #include <algorithm>
 
@@ -26,19 +27,34 @@ const char* label(SceneState state) {
   return "";
 }
 
-std::string numbers(const vec3& v) {
+template <class Vector>
+std::string numbers(const Vector& v) {
   return fmt::format("({:.2f}, {:.2f}, {:.2f})", v.x, v.y, v.z);
+}
+
+// "sphere of radius 0.5 m about (0.00, 0.50, 0.00)".
+std::string shape_words(const AnalyticSurface& s) {
+  switch (s.kind) {
+    case AnalyticSurface::Kind::sphere:
+      return fmt::format("sphere of radius {:.4g} m about {}", s.radius, numbers(s.center));
+    case AnalyticSurface::Kind::cylinder:
+      return fmt::format(
+          "upright cylinder of radius {:.4g} m about x = {:.2f}, z = {:.2f}, from y = {:.2f} to {:.2f}",
+          s.radius, s.center.x, s.center.z, s.y0, s.y1);
+    case AnalyticSurface::Kind::paraboloid:
+      return fmt::format("upright paraboloid of focal length {:.4g} m and rim radius {:.4g} m, vertex at {}",
+                         s.focal_length, s.radius, numbers(s.center));
+  }
+  return "";
 }
 
 }  // namespace
 
 int scene_list_command(const Environment& environment) {
-  const std::vector<SceneEntry> scenes = list_scenes(environment.scene_paths);
-  size_t width = 0;
-  for (const SceneEntry& scene : scenes) width = std::max(width, scene.name.size());
-  for (const SceneEntry& scene : scenes) {
-    fmt::print("{:<{}}  {:<14}  {}\n", scene.name, width, label(scene.state), scene.source);
-  }
+  TextTable table;
+  for (const SceneEntry& scene : list_scenes(environment.scene_paths))
+    table.push_back({scene.name, label(scene.state), scene.source});
+  fmt::print("{}", aligned_table(table));
   return kOk;
 }
 
@@ -52,6 +68,10 @@ int scene_info_command(const Environment& environment, const std::string& name) 
   fmt::print("lights     {}\n", scene.lights.size());
   fmt::print("bounds     {} to {} m\n", numbers(scene.bounds.lower), numbers(scene.bounds.upper));
   fmt::print("hash       {}\n", hex(scene.content_hash));
+  for (const AnalyticSurface& surface : scene.analytic) {
+    fmt::print("surface    {}: {}, material {}\n", surface.name, shape_words(surface),
+               scene.materials[surface.material].name);
+  }
   for (const Camera& camera : scene.cameras) {
     fmt::print("camera     {}: at {} looking at {}, {:.0f} degrees\n", camera.name, numbers(camera.eye),
                numbers(camera.target), camera.vertical_fov);

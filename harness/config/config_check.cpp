@@ -285,8 +285,6 @@ class Checker {
 }  // namespace
 
 const Experiment& experiment_of(const JsonSource& source, std::span<const Experiment> experiments) {
-  std::vector<std::string> known;
-  for (const Experiment& e : experiments) known.push_back(e.name);
   const Json& root = source.root();
   if (!root.is_object()) {
     throw InputError(source.place(""), fmt::format("found {}; expected an object {{...}}", found_text(root)));
@@ -295,12 +293,11 @@ const Experiment& experiment_of(const JsonSource& source, std::span<const Experi
     throw InputError(source.place(""), "the key \"experiment\" is missing: it names the experiment to run");
   }
   const Json& name = root["experiment"];
-  for (const Experiment& e : experiments) {
-    if (name == e.name) return e;
-  }
   const std::string place = source.place("/experiment");
-  if (name.is_string()) throw InputError(place, unknown_name("experiment", name, known));
-  throw InputError(place, fmt::format("found {}; expected the name of an experiment", found_text(name)));
+  if (!name.is_string())
+    throw InputError(place, fmt::format("found {}; expected the name of an experiment", found_text(name)));
+  if (const Experiment* found = find_experiment(name, experiments)) return *found;
+  throw InputError(place, unknown_experiment(name, experiments));
 }
 
 std::vector<Problem> config_problems(const JsonSource& source, const Experiment& experiment) {

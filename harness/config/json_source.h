@@ -22,7 +22,6 @@ class JsonSource {
   static JsonSource read(const std::filesystem::path& file);
 
   const nlohmann::ordered_json& root() const;
-  const std::string& name() const { return name_; }
 
   // "file.json:12:7 (/sweep/scene/2)": where the value at this JSON pointer begins, lines and columns (in
   // bytes) from 1. The place of the nearest parent that is there, for a pointer that is not; no pointer in

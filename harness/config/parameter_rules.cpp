@@ -41,6 +41,14 @@ bool is_text(ParameterType type) {
          type == ParameterType::resolution;
 }
 
+// A "WIDTHxHEIGHT" text with each side in the parameter's range.
+bool is_resolution(const Parameter& p, const std::string& text) {
+  const auto resolution = parse_resolution(text);
+  const auto [least, most] = side_range(p);
+  return resolution && std::min(resolution->width, resolution->height) >= least &&
+         std::max(resolution->width, resolution->height) <= most;
+}
+
 // What stands on a command line, read as JSON where it is some; text otherwise.
 Value parse_scalar(const std::string& text) {
   const auto json = nlohmann::ordered_json::parse(text, nullptr, false);
@@ -151,11 +159,10 @@ std::string unknown_parameter(const Experiment& experiment, const std::string& n
   return unknown_name("parameter", name, known);
 }
 
-bool is_resolution(const Parameter& p, const std::string& text) {
-  const auto resolution = parse_resolution(text);
-  const auto [least, most] = side_range(p);
-  return resolution && std::min(resolution->width, resolution->height) >= least &&
-         std::max(resolution->width, resolution->height) <= most;
+std::string unknown_experiment(const std::string& name, std::span<const Experiment> experiments) {
+  std::vector<std::string> known;
+  for (const Experiment& e : experiments) known.push_back(e.name);
+  return unknown_name("experiment", name, known);
 }
 
 std::pair<int64_t, int64_t> side_range(const Parameter& p) {

@@ -3,6 +3,7 @@
 
 #include "harness/experiments/experiment.h"
 
+#include <span>
 #include <string>
 #include <utility>
 
@@ -39,15 +40,15 @@ const Parameter* parameter_of_type(const Experiment& experiment, ParameterType t
 // `unknown parameter "x"; did you mean "y"?`
 std::string unknown_parameter(const Experiment& experiment, const std::string& name);
 
+// `unknown experiment "x"; did you mean "y"?`
+std::string unknown_experiment(const std::string& name, std::span<const Experiment> experiments);
+
 // `; did you mean "y"?`, or `; known are: y, z` where nothing is near.
 std::string suggestion(const std::string& name, const std::vector<std::string>& known);
 
 // `unknown WHAT "x"` with the suggestion.
 std::string unknown_name(const std::string& what, const std::string& name,
                          const std::vector<std::string>& known);
-
-// A "WIDTHxHEIGHT" text with each side in the parameter's range.
-bool is_resolution(const Parameter& parameter, const std::string& text);
 
 // The sides that a resolution parameter accepts, pixels: its range, or 1 to 65536.
 std::pair<int64_t, int64_t> side_range(const Parameter& parameter);

@@ -71,10 +71,10 @@ void add_times(Row& row, const Setup& setup, const caustics::MapSet& maps, int r
 void add_main_view_time(Row& row, const Setup& setup, int repeats, uint64_t seed);
 
 // Pictures below the run's folder: without caustics, with them, caustics alone, the reference, and where
-// HDR-FLIP sees the caustics differ from it. `caustics` and `flip` may be empty, `reference` null.
+// HDR-FLIP sees the caustics differ from it. `caustics` and `flip` may be empty, `reference` null. Points
+// that share a view, lights and a reference are shown at the same exposure.
 void write_pictures(const Point& point, const Workspace& workspace, const Setup& setup,
-                    const Image2D<vec3>& caustics, const Image2D<vec3>* reference,
-                    const Image2D<float>& flip);
+                    const Image2D<vec3>& caustics, const Reference* reference, const Image2D<float>& flip);
 
 }  // namespace caustics_parts
 }  // namespace hybray

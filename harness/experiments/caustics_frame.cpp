@@ -6,6 +6,8 @@
 #include "harness/experiments/cells.h"
 #include "harness/timing/interleaved.h"
 
+#include <algorithm>
+
 namespace hybray::caustics_parts {
 namespace {
 

@@ -1,22 +1,27 @@
 // Pictures of `caustics`: the deferred image without and with them (caustics paper, Figure 6), the caustics
-// alone, and the reference, all at one exposure; and HDR-FLIP's error map.
+// alone, and the reference; and HDR-FLIP's error map.
+//
+// All are shown at one exposure. Points with a reference take it from that, so that their pictures compare;
+// without one it comes from the point's own image.
 #include "core/base/develop.h"
 #include "core/base/image_io.h"
 #include "core/base/parallel.h"
 #include "core/caustics/light_source.h"
 #include "core/metrics/magma.h"
 #include "harness/experiments/caustics.h"
-#include "harness/experiments/workspace.h"
+#include "harness/experiments/picture_file.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace hybray::caustics_parts {
 namespace {
 
 using namespace caustics;
 
-constexpr int kCameraPaths = 16;  // through specular surfaces, of a pixel
+constexpr int kCameraPaths = 16;   // through specular surfaces, of a pixel
+constexpr int kCameraEvents = 12;  // greatest number of specular events along one
 
 // Radiance that a point sends on of the light that reaches it straight from the lights in use. Whatever
 // refracts casts a shadow here: its light arrives as a caustic.
@@ -43,6 +48,7 @@ dvec3 direct_light(const Setup& setup, const dvec3& place, const dvec3& normal, 
   return sum;
 }
 
+// The same for all points of one view and its lights, whatever the settings of their caustics.
 Image2D<vec3> deferred_image(const Setup& setup) {
   const int w = setup.view.width(), h = setup.view.height();
   const GBuffer& g = setup.gbuffer;
@@ -65,9 +71,10 @@ Image2D<vec3> deferred_image(const Setup& setup) {
   });
   if (!sees_specular(setup.caustic_scene, g)) return image;
 
-  CameraPathOptions options = setup.pass.camera;
+  CameraPathOptions options;
   options.paths_per_pixel = kCameraPaths;
-  options.walk.max_events = 12;
+  options.walk.max_events = kCameraEvents;
+  options.walk.seed = setup.pass.walk.seed;
   const VisibilityPoints seen =
       trace_visibility_points(setup.robust, setup.caustic_scene.optics, g, setup.camera_medium, options);
   std::vector<vec3> light(seen.points.size());
@@ -82,30 +89,30 @@ Image2D<vec3> deferred_image(const Setup& setup) {
   return image;
 }
 
+// Of images of the same size; the second may be empty.
+Image2D<vec3> sum_of(Image2D<vec3> image, const Image2D<vec3>& more) {
+  for (size_t i = 0; i < more.size(); ++i) image[i] += more[i];
+  return image;
+}
+
 }  // namespace
 
 void write_pictures(const Point& point, const Workspace& workspace, const Setup& setup,
-                    const Image2D<vec3>& caustics, const Image2D<vec3>* reference,
-                    const Image2D<float>& flip) {
-  const std::filesystem::path folder = workspace.settings().output / "pictures";
-  std::filesystem::create_directories(folder);
-  const std::string stem =
-      point.text("scene") + "_" + point.text("camera") + "_" + point.text("resolution") + "_" + point.id;
-  const Image2D<vec3> off = deferred_image(setup);
-  Image2D<vec3> on = off;
-  for (size_t i = 0; i < caustics.size(); ++i) on[i] += caustics[i];
-  const float exposure = automatic_exposure(on);
-  const auto write = [&](const char* name, const Image2D<vec3>& image) {
-    write_png(folder / (stem + "_" + name + ".png"), image.width(), image.height(), develop(image, exposure));
+                    const Image2D<vec3>& caustics, const Reference* reference, const Image2D<float>& flip) {
+  const Image2D<vec3> off = deferred_image(setup), on = sum_of(off, caustics);
+  const float exposure = automatic_exposure(reference ? sum_of(off, reference->image.mean) : on);
+  const auto write = [&](const char* suffix, const Image2D<vec3>& image) {
+    write_png(picture_file(point, workspace, suffix), image.width(), image.height(),
+              develop(image, exposure));
   };
-  write("off", off);
+  write("_off", off);
   if (!caustics.empty()) {
-    write("on", on);
-    write("caustics", caustics);
+    write("_on", on);
+    write("_caustics", caustics);
   }
-  if (reference) write("reference", *reference);
+  if (reference) write("_reference", reference->image.mean);
   if (!flip.empty())
-    write_png(folder / (stem + "_flip.png"), flip.width(), flip.height(), metrics::magma(flip));
+    write_png(picture_file(point, workspace, "_flip"), flip.width(), flip.height(), metrics::magma(flip));
 }
 
 }  // namespace hybray::caustics_parts

@@ -98,12 +98,6 @@ void add_work(Row& row, const Frame& frame, const Setup& setup, const MapSet& ma
     row["mixed_pixels_skipped"] = static_cast<int64_t>(setup.gbuffer.depth.size() - frame.mixed_pixels);
 }
 
-void put_interval(Row& row, const std::string& name, const metrics::Interval& interval) {
-  row[name] = interval.value;
-  row[name + "_low"] = interval.low;
-  row[name + "_high"] = interval.high;
-}
-
 }  // namespace
 
 Row run(const Point& point, Workspace& workspace) {
@@ -178,8 +172,7 @@ Row run(const Point& point, Workspace& workspace) {
     display->report(row);
   }
   if (picture)
-    write_pictures(point, workspace, setup, first, truth ? &truth->image.mean : nullptr,
-                   display ? display->flip() : Image2D<float>());
+    write_pictures(point, workspace, setup, first, truth, display ? display->flip() : Image2D<float>());
   if (timing) add_times(row, setup, maps, repeats, workspace.settings().seed);
   return row;
 }

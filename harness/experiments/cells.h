@@ -17,12 +17,15 @@ inline void put_time(Row& row, const std::string& stem, std::span<const double> 
   row[stem + "_spread_ms"] = metrics::spread(ms);
 }
 
+inline void put_interval(Row& row, const std::string& name, const metrics::Interval& interval) {
+  row[name] = interval.value;
+  row[name + "_low"] = interval.low;
+  row[name + "_high"] = interval.high;
+}
+
 inline void put_ratio(Row& row, const std::string& name, std::span<const double> numerator,
                       std::span<const double> denominator, uint64_t seed) {
-  const metrics::Interval r = metrics::median_ratio(numerator, denominator, seed);
-  row[name] = r.value;
-  row[name + "_low"] = r.low;
-  row[name + "_high"] = r.high;
+  put_interval(row, name, metrics::median_ratio(numerator, denominator, seed));
 }
 
 }  // namespace hybray

@@ -33,14 +33,27 @@ inline void add_time(std::vector<Column>& columns, const std::string& stem, cons
       {stem + "_spread_ms", "ms", ColumnKind::time, Better::none, "interquartile range of " + stem + "_ms"});
 }
 
-// A ratio of times with its 95 % bootstrap interval.
+// The column, with the tolerance within which it is as accepted.
+inline Column within(const Tolerance& tolerance, Column column) {
+  column.tolerance = tolerance;
+  return column;
+}
+
+// A number of unit 1 and the ends of its 95 % interval.
+inline void add_interval(std::vector<Column>& columns, const std::string& name, ColumnKind kind,
+                         Better better, const std::string& text, const Tolerance& tolerance = {}) {
+  const auto add = [&](const std::string& end, Better which, const std::string& meaning) {
+    columns.push_back(within(tolerance, {name + end, "1", kind, which, meaning}));
+  };
+  add("", better, text);
+  add("_low", Better::none, "lower end of the 95 % interval of " + name);
+  add("_high", Better::none, "upper end of the 95 % interval of " + name);
+}
+
+// A ratio of times with its bootstrap interval.
 inline void add_ratio(std::vector<Column>& columns, const std::string& name, const std::string& text,
                       Better better = Better::higher) {
-  columns.push_back({name, "1", ColumnKind::time, better, text + "; median of the paired ratios"});
-  columns.push_back(
-      {name + "_low", "1", ColumnKind::time, Better::none, "lower end of the 95 % interval of " + name});
-  columns.push_back(
-      {name + "_high", "1", ColumnKind::time, Better::none, "upper end of the 95 % interval of " + name});
+  add_interval(columns, name, ColumnKind::time, better, text + "; median of the paired ratios");
 }
 
 }  // namespace hybray::column

@@ -121,7 +121,8 @@ struct Experiment {
 // Every experiment of this build.
 std::span<const Experiment> experiments();
 
-// The experiment of that name, or nullptr.
-const Experiment* find_experiment(const std::string& name);
+// The one of that name among them, or nullptr.
+const Experiment* find_experiment(const std::string& name,
+                                  std::span<const Experiment> experiments = hybray::experiments());
 
 }  // namespace hybray

@@ -9,8 +9,8 @@ std::span<const Experiment> experiments() {
   return all;
 }
 
-const Experiment* find_experiment(const std::string& name) {
-  for (const Experiment& experiment : experiments()) {
+const Experiment* find_experiment(const std::string& name, std::span<const Experiment> experiments) {
+  for (const Experiment& experiment : experiments) {
     if (experiment.name == name) return &experiment;
   }
   return nullptr;

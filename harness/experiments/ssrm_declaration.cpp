@@ -20,9 +20,8 @@ Column share_of_rays(const char* name, Better better, const char* text) {
 }
 
 // What follows from how many rays there are or which of them are resolved.
-Column follows_rays(Column column) {
-  column.tolerance = {2.0, kMovedRays};
-  return column;
+Column follows_rays(const Column& column) {
+  return column::within({2.0, kMovedRays}, column);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include "core/base/image_io.h"
 #include "core/gbuffer/triangle_plane.h"
 #include "core/scene/surface_point.h"
-#include "harness/experiments/workspace.h"
+#include "harness/experiments/picture_file.h"
 
 #include <algorithm>
 #include <array>
@@ -61,12 +61,8 @@ void write_verdict_picture(const Point& point, const Workspace& workspace, const
         color_of(results.verdict[i], classes[i], gbuffer, scene, results.pixel[i], rays.direction(i));
     std::copy(color.begin(), color.end(), rgb.begin() + 3 * static_cast<ptrdiff_t>(rays.pixel[i]));
   }
-  const std::filesystem::path folder = workspace.settings().output / "pictures";
-  std::filesystem::create_directories(folder);
-  const std::string stem =
-      point.text("scene") + "_" + point.text("camera") + "_" + point.text("resolution") + "_" + point.id;
-  write_png(folder / (stem + ".png"), width, height, rgb);
-  write_png(folder / (stem + "_view.png"), width, height, view_picture(gbuffer, scene));
+  write_png(picture_file(point, workspace), width, height, rgb);
+  write_png(picture_file(point, workspace, "_view"), width, height, view_picture(gbuffer, scene));
 }
 
 }  // namespace hybray

@@ -31,7 +31,6 @@ class Workspace {
     std::filesystem::path output;     // folder of the run; pictures go below it
     uint64_t seed = 1;                // of the whole run
     bool timing = true;               // false: time columns stay empty, nothing is repeated
-    int threads = 0;                  // 0: all
     ReferenceCache* cache = nullptr;  // of converged references; none: they are made in every run
   };
 

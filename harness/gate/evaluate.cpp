@@ -147,10 +147,6 @@ class Evaluation {
 
 }  // namespace
 
-bool fails_run(GateStatus status) {
-  return status == GateStatus::missed;
-}
-
 GateResult evaluate(const Gate& gate, const GatedTable& table, const Baseline& baseline) {
   return Evaluation(gate, table, baseline).run();
 }

@@ -29,8 +29,6 @@ struct GateResult {
   std::vector<std::string> misses;  // every miss, with its row
 };
 
-bool fails_run(GateStatus status);
-
 // A gate passes if it has a row and every row keeps to every bound. A missing row, an empty cell, a cell that
 // is no finite number and a missing baseline are misses that no expected failure excuses. Throws InputError
 // where the table lacks a column of the gate.

@@ -1,5 +1,6 @@
 #include "harness/gate/report.h"
 
+#include <algorithm>
 #include <string_view>
 
 #include <fmt/format.h>

@@ -1,34 +1,12 @@
 #include "harness/gate/report.h"
+#include "harness/table/text_table.h"
 
 #include <algorithm>
-#include <array>
 
 #include <fmt/format.h>
 
 namespace hybray {
 namespace {
-
-using Line = std::array<std::string, 7>;
-
-// Columns padded to the same width, counted in characters, but for the last.
-std::string aligned(const std::vector<Line>& lines) {
-  const auto width = [](const std::string& text) {
-    return static_cast<size_t>(
-        std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xc0) != 0x80; }));
-  };
-  std::array<size_t, std::tuple_size_v<Line>> widths{};
-  for (const Line& line : lines) {
-    for (size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], width(line[i]));
-  }
-  std::string text;
-  for (const Line& line : lines) {
-    std::string padded;
-    for (size_t i = 0; i < line.size(); ++i)
-      padded += line[i] + std::string(widths[i] - width(line[i]) + 2, ' ');
-    text += padded.substr(0, padded.find_last_not_of(' ') + 1) + '\n';
-  }
-  return text;
-}
 
 std::string one_line(std::string text) {
   std::replace_if(
@@ -90,12 +68,12 @@ std::string text_report(std::span<const TableReport> reports) {
   std::string text;
   for (const TableReport& report : reports) {
     text += fmt::format("{}: {} rows, {}\n", report.file, report.rows, report.gates);
-    std::vector<Line> lines{{"result", "gate", "rows", "value", "limit", "margin", "where"}};
+    TextTable lines{{"result", "gate", "rows", "value", "limit", "margin", "where"}};
     for (const GateResult& r : report.results) {
       lines.push_back({label(r.status), one_line(r.name), fmt::format("{}", r.rows), r.value, r.limit,
                        r.margin, one_line(r.row)});
     }
-    text += aligned(lines);
+    text += aligned_table(lines);
     for (const GateResult& result : report.results) add_details(text, result);
     text += '\n';
   }

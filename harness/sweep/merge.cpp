@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/hash.h"
+#include "harness/config/parameter_rules.h"
 #include "harness/sweep/run_record.h"
 #include "harness/table/csv.h"
 #include "harness/table/files.h"
@@ -71,11 +72,8 @@ void check_same_run(const Part& first, const Part& part) {
 
 const Experiment& experiment_of(const Part& part, std::span<const Experiment> experiments) {
   const std::string name = part.manifest.at("config").at("experiment");
-  const auto found = std::find_if(experiments.begin(), experiments.end(),
-                                  [&](const Experiment& e) { return e.name == name; });
-  if (found == experiments.end())
-    throw InputError(part.folder.string(), "this program has no experiment \"" + name + "\"");
-  return *found;
+  if (const Experiment* found = find_experiment(name, experiments)) return *found;
+  throw InputError(part.folder.string(), unknown_experiment(name, experiments));
 }
 
 // The rows of all parts, by id.
@@ -118,6 +116,12 @@ Rows rows_of(const std::vector<Part>& parts, const Experiment& experiment) {
   throw InputError("merge", what + " (--allow-missing merges the others)");
 }
 
+// Whether a list of texts, as common_origin writes it, has this one.
+bool lists(const std::string& all, const std::string& text) {
+  constexpr const char* kBetween = " | ";
+  return (kBetween + all + kBetween).find(kBetween + text + kBetween) != std::string::npos;
+}
+
 // Where machine, threads or the like differ, all values: no single run is of that origin.
 Json common_origin(const std::vector<Part>& parts, std::vector<std::string>& warnings) {
   Json origin = Json::object();
@@ -125,7 +129,7 @@ Json common_origin(const std::vector<Part>& parts, std::vector<std::string>& war
     for (const auto& [name, value] : part.manifest.at("row_origin").items()) {
       if (!origin.contains(name)) {
         origin[name] = value;
-      } else if (std::string all = origin[name]; all.find(value.get<std::string>()) == std::string::npos) {
+      } else if (std::string all = origin[name]; !lists(all, value.get<std::string>())) {
         origin[name] = all + " | " + value.get<std::string>();
         warnings.push_back(
             fmt::format("{} has rows of another {}: {}", part.folder.string(), name, value.dump()));
@@ -159,6 +163,18 @@ Json merged_run(const std::vector<Part>& parts, const Rows& rows, size_t points)
   return run;
 }
 
+// Counts of all parts together. The cache may have been on in some of them only; the shards say in which.
+Json merged_references(const std::vector<Part>& parts) {
+  Json sum = Json::object();
+  for (const Part& part : parts) {
+    const Json own = part.manifest.value("references", Json::object());
+    for (const auto& [name, value] : own.items())
+      sum[name] =
+          value.is_number_unsigned() ? Json(sum.value(name, uint64_t{0}) + value.get<uint64_t>()) : value;
+  }
+  return sum;
+}
+
 Json merged_manifest(const std::vector<Part>& parts, const Rows& rows, const std::string& table,
                      const std::string& content, std::vector<std::string>& warnings) {
   Json merged = parts.front().manifest;
@@ -166,10 +182,11 @@ Json merged_manifest(const std::vector<Part>& parts, const Rows& rows, const std
   merged["table"] = {{"file", table}, {"content_hash", hex(hash_text(content))}};
   merged["row_origin"] = common_origin(parts, warnings);
   merged["run"] = merged_run(parts, rows, merged.at("points").size());
+  merged["references"] = merged_references(parts);
   Json shards = Json::array();
   for (const Part& part : parts) {
     Json shard = Json::object();
-    for (const char* key : {"shard", "machine", "row_origin", "run"}) {
+    for (const char* key : {"shard", "machine", "row_origin", "run", "references"}) {
       if (part.manifest.contains(key)) shard[key] = part.manifest.at(key);
     }
     shards.push_back(std::move(shard));

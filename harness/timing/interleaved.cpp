@@ -19,13 +19,14 @@ std::vector<size_t> random_order(size_t n, uint64_t round, uint64_t seed) {
   return order;
 }
 
-}  // namespace
-
+// Milliseconds.
 double time_once(const std::function<void()>& run) {
   const auto start = std::chrono::steady_clock::now();
   run();
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
+
+}  // namespace
 
 InterleavedTimes time_interleaved(std::span<const Variant> variants, int repeats, uint64_t seed) {
   HYBRAY_CHECK_LT(0, repeats);

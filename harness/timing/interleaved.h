@@ -25,7 +25,4 @@ struct InterleavedTimes {
 // once in an order drawn from (seed, round).
 InterleavedTimes time_interleaved(std::span<const Variant> variants, int repeats, uint64_t seed);
 
-// Wall time of one call, milliseconds.
-double time_once(const std::function<void()>& run);
-
 }  // namespace hybray

@@ -150,7 +150,10 @@ TEST_F(CheckProgramTest, FindsAConfigInThePresentFolderAndTakesOneByName) {
       {"check", "out/toy.csv"},
       "out/toy.csv: which config it is of is not known, since no manifest.json of it is beside it; name "
       "the config with --gates");
-  EXPECT_EQ(hybray({"check", "out/toy.csv", "--gates", "toy.json"}).exit_code, kOk);
+  const test::Outcome named = hybray({"check", "out/toy.csv", "--gates", "toy.json"});
+  EXPECT_EQ(named.exit_code, kOk);
+  EXPECT_EQ(named.err,
+            "hybray: warning: out/toy.csv: no manifest.json of it says how many rows it should have\n");
 }
 
 TEST_F(CheckProgramTest, MissesPointsWithoutARow) {
@@ -162,6 +165,49 @@ TEST_F(CheckProgramTest, MissesPointsWithoutARow) {
   EXPECT_NE(outcome.out.find("the run had 2 points, the table has 1 rows"), std::string::npos) << outcome.out;
   expect_usage_error({"accept", "out/toy.csv"}, "out/toy.csv: the run had 2 points, the table has 1 rows");
   EXPECT_FALSE(std::filesystem::exists(in_root("results/baseline/toy.csv")));
+}
+
+// Of runs in parts, whose tables have rows of some points only.
+TEST_F(CheckProgramTest, MissesPointsWithoutARowOfShardsAndOfWhatWasMerged) {
+  run_with(R"([{"column": "doubled_m", "max": 4}])");
+  const std::string config = in_root("configs/toy.json");
+  for (const char* shard : {"1/2", "2/2"})
+    ASSERT_EQ(hybray({"run", config, "-q", "-o", "shards", "--shard", shard}).exit_code, kOk);
+  const std::string first = "shards/shard-1-of-2", second = "shards/shard-2-of-2";
+  EXPECT_EQ(hybray({"check", first + "/toy.csv"}).exit_code, kOk)
+      << "a shard is complete with its own points";
+
+  ASSERT_EQ(hybray({"merge", first, second, "-o", "merged"}).exit_code, kOk);
+  EXPECT_EQ(hybray({"check", "merged/toy.csv"}).exit_code, kOk);
+  ASSERT_EQ(hybray({"merge", first, "-o", "half", "--allow-missing"}).exit_code, kOk);
+  const test::Outcome half = hybray({"check", "half/toy.csv"});
+  EXPECT_EQ(half.exit_code, kGateFailed);
+  EXPECT_NE(half.out.find("the run had 2 points, the table has 1 rows"), std::string::npos) << half.out;
+
+  const std::string table = test::content_of(folder_ / (second + "/toy.csv"));
+  folder_.write(second + "/toy.csv", table.substr(0, table.find('\n') + 1));
+  const test::Outcome empty = hybray({"check", second + "/toy.csv"});
+  EXPECT_EQ(empty.exit_code, kGateFailed);
+  EXPECT_NE(empty.out.find("the run had 1 points, the table has 0 rows"), std::string::npos) << empty.out;
+}
+
+TEST_F(CheckProgramTest, MissesPointsWithoutARowUntilAResumedRunHasThem) {
+  folder_.write("root/configs/toy.json",
+                R"({"experiment": "toy", "parameters": {"behaviour": "fragile"}, "sweep": {"count": [1, 2]},
+                    "gates": [{"column": "doubled_m", "max": 4}]})");
+  const std::string config = in_root("configs/toy.json");
+  ASSERT_EQ(hybray({"run", config, "-q", "-o", "out", "--filter", "count=1"}).exit_code, kOk);
+  EXPECT_EQ(hybray({"check", "out/toy.csv"}).exit_code, kOk) << "all that the filter left";
+
+  folder_.write("out/hammer", "");
+  ASSERT_EQ(hybray({"run", config, "-q", "-o", "out"}).exit_code, kSomeFailed);
+  const test::Outcome failed = hybray({"check", "out/toy.csv"});
+  EXPECT_EQ(failed.exit_code, kGateFailed);
+  EXPECT_NE(failed.out.find("the run had 2 points, the table has 1 rows"), std::string::npos) << failed.out;
+
+  std::filesystem::remove(folder_ / "out/hammer");
+  ASSERT_EQ(hybray({"run", config, "-q", "-o", "out"}).exit_code, kOk);
+  EXPECT_EQ(hybray({"check", "out/toy.csv"}).exit_code, kOk);
 }
 
 TEST_F(CheckProgramTest, WritesReportsForMachinesAndPages) {

@@ -97,6 +97,17 @@ TEST_F(SsrmProgramTest, ShowsWhatScenesThereAreAndWhatIsInThem) {
   EXPECT_NE(info.out.find("triangles  "), std::string::npos);
 }
 
+TEST_F(SsrmProgramTest, ShowsTheAnalyticSurfacesOfAScene) {
+  const std::string ball = hybray({"scene", "info", "closed_ball_lens"}).out;
+  EXPECT_NE(ball.find("\nsurface    "), std::string::npos) << ball;
+  EXPECT_NE(ball.find(": sphere of radius "), std::string::npos) << ball;
+  EXPECT_NE(hybray({"scene", "info", "closed_cylinder"}).out.find(": upright cylinder of radius "),
+            std::string::npos);
+  EXPECT_NE(hybray({"scene", "info", "closed_paraboloid"}).out.find(": upright paraboloid of focal length "),
+            std::string::npos);
+  EXPECT_EQ(hybray({"scene", "info", "sphere"}).out.find("\nsurface"), std::string::npos);
+}
+
 TEST_F(SsrmProgramTest, ExportsASceneThatItCanReadAgain) {
   ASSERT_EQ(hybray({"scene", "export", "sphere", "-o", "copy.glb"}).exit_code, kOk);
   test::ProcessOptions options;

@@ -49,7 +49,7 @@ class CausticsFixture : public testing::Test {
   Workspace::Settings settings(bool timing = false) const {
     ScenePaths paths = default_scene_paths(HYBRAY_PROJECT_DIR);
     paths.overlays.insert(paths.overlays.begin(), folder_.path());
-    return {paths, folder_ / "out", 1, timing, 0};
+    return {paths, folder_ / "out", 1, timing};
   }
 
   // Writes an overlay and gives the scene's name.

@@ -57,6 +57,23 @@ TEST_F(CausticsPicture, ShowsTheSceneWithoutAndWithCausticsTheCausticsTheReferen
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_ / "out/pictures"), {}), 5);
 }
 
+TEST_F(CausticsPicture, OfPointsThatShareAReferenceAreShownAtOneExposure) {
+  Workspace workspace(settings());
+  const Changes common{{"camera", text("front")}, {"picture", true}, {"reference_paths", 2e4}};
+  const auto run_with = [&](const Changes& own) {
+    Changes changes = common;
+    changes.insert(own.begin(), own.end());
+    run_in(workspace, changes);
+  };
+  run_with({{"rays_per_texel", 0.25}, {"mirror_depth", int64_t{1}}, {"roulette_threshold", 0.0}});
+  const auto off = pixels("off"), on = pixels("on"), reference = pixels("reference");
+  run_with({{"rays_per_texel", 64.0}, {"filter", text("wavelet")}, {"camera_paths", int64_t{3}}});
+  ASSERT_FALSE(off.empty());
+  EXPECT_EQ(pixels("off"), off);
+  EXPECT_EQ(pixels("reference"), reference);
+  EXPECT_NE(pixels("on"), on);
+}
+
 TEST_F(CausticsPicture, WithoutCausticsIsTheSceneAlone) {
   run({{"camera", text("front")}, {"picture", true}, {"caustics", false}, {"resolution", text("32x18")}});
   EXPECT_FALSE(is_black(pixels("off", "32x18")));

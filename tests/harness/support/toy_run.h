@@ -33,7 +33,7 @@ class ToyRunTest : public ::testing::Test {
         config_, sweep_, sweep_.points, {{}, {}, how.timing, how.threads, how.shard, how.fresh}};
     if (how.shard) request.points = points_of_shard(*config_.experiment, sweep_, *how.shard);
     std::filesystem::create_directories(folder_ / how.folder);
-    Workspace workspace({{}, folder_ / how.folder, 1, how.timing, 0});
+    Workspace workspace({{}, folder_ / how.folder, 1, how.timing});
     computed_.clear(), failures_.clear(), remarks_.clear();
     return run_sweep(
         request, workspace,

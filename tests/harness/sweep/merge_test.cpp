@@ -78,6 +78,22 @@ TEST_F(MergeTest, HoldsTheManifestsOfItsShards) {
   EXPECT_DOUBLE_EQ(manifest["run"]["wall_time_s"].get<double>(), sum);
 }
 
+TEST_F(MergeTest, CountsTheReferencesOfAllShards) {
+  run_shards();
+  for (const char* folder : {"1", "2", "3"}) {
+    edit_manifest(folder, [&](Json& m) {
+      m["references"]["computed"] = folder[0] - '0';
+      m["references"]["cache_enabled"] = true;
+    });
+  }
+  merge({"1", "2", "3"});
+  const Json manifest = Json::parse(content("merged/manifest.json"));
+  EXPECT_EQ(manifest["references"]["computed"], 6);
+  EXPECT_EQ(manifest["references"]["batches_reused"], 0);
+  EXPECT_EQ(manifest["references"]["cache_enabled"], true);
+  EXPECT_EQ(manifest["shards"][1]["references"]["computed"], 2);
+}
+
 TEST_F(MergeTest, CanBeResumedLikeASingleRun) {
   run_shards();
   merge({"1", "2", "3"});
@@ -168,6 +184,16 @@ TEST_F(MergeTest, WarnsWhereRowsOfDifferentMachinesStandBesideOneAnother) {
   EXPECT_EQ(result.warnings,
             std::vector<std::string>{(folder_ / "2").string() + " has rows of another cpu: \"another\""});
   EXPECT_EQ(run(kConfig, {.folder = "merged"}).reused, 0u) << "no single run makes such a table";
+}
+
+TEST_F(MergeTest, TellsOriginsApartOfWhichOneIsPartOfTheOther) {
+  run_shards();
+  edit_manifest("1", [](Json& m) { m["row_origin"]["threads"] = "12"; });
+  edit_manifest("2", [](Json& m) { m["row_origin"]["threads"] = "2"; });
+  edit_manifest("3", [](Json& m) { m["row_origin"]["threads"] = "12"; });
+  EXPECT_EQ(merge({"1", "2", "3"}).warnings,
+            std::vector<std::string>{(folder_ / "2").string() + " has rows of another threads: \"2\""});
+  EXPECT_EQ(Json::parse(content("merged/manifest.json"))["row_origin"]["threads"], "12 | 2");
 }
 
 TEST_F(MergeTest, RefusesWhatIsNotAFinishedShard) {
