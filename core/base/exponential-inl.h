@@ -26,11 +26,10 @@ HWY_INLINE V exp_of_negative(V x) {
   const auto pair = [&](int k) HWY_ATTR {
     return hn::Add(hn::Set(d, exponential::kTaylor[k]), hn::Mul(hn::Set(d, exponential::kTaylor[k + 1]), r));
   };
-  const V r2 = hn::Mul(r, r), r4 = hn::Mul(r2, r2), r8 = hn::Mul(r4, r4);
-  const auto four = [&](int k) HWY_ATTR { return hn::Add(pair(k), hn::Mul(pair(k + 2), r2)); };
-  const V sum =
-      hn::Add(hn::Add(four(0), hn::Mul(four(4), r4)), hn::Mul(hn::Add(four(8), hn::Mul(pair(12), r4)), r8));
-  const V scaled = hn::BitCast(d, hn::Add(hn::BitCast(du, sum), hn::ShiftLeft<52>(hn::BitCast(du, whole))));
+  const V r2 = hn::Mul(r, r);
+  const V sum = hn::Add(hn::Add(pair(0), hn::Mul(pair(2), r2)),
+                        hn::Mul(hn::Add(pair(4), hn::Mul(pair(6), r2)), hn::Mul(r2, r2)));
+  const V scaled = hn::BitCast(d, hn::Add(hn::BitCast(du, sum), hn::ShiftLeft<23>(hn::BitCast(du, whole))));
   return hn::IfThenElseZero(hn::Ge(x, hn::Set(d, exponential::kSmallest)), scaled);
 }
 

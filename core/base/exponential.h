@@ -1,5 +1,6 @@
-// exp(x) for x <= 0 from single products and sums in a fixed order: unlike the library's, the same bits on
-// every machine, and in lanes (exponential-inl.h). Within 2 units in the last place; 0 below -708.
+// exp(x) for x <= 0 in single precision, from single products and sums in a fixed order: unlike the
+// library's, the same bits on every machine, and in lanes (exponential-inl.h). Within 2 units in the last
+// place; 0 below -87.
 #pragma once
 
 #include <bit>
@@ -8,40 +9,27 @@
 namespace hybray {
 
 namespace exponential {
-inline constexpr double kSmallest = -708.0;
-inline constexpr double kLog2E = 1.4426950408889634;
+inline constexpr float kSmallest = -87.0f;
+inline constexpr float kLog2E = 1.44269504f;
 // Adding it leaves a number rounded to a whole one in the low bits.
-inline constexpr double kWhole = 0x1.8p52;
-// ln 2 in two parts; a product of the first with a whole number below 2^11 is exact.
-inline constexpr double kLn2High = 0x1.62e42fefa0000p-1, kLn2Low = 0x1.cf79abc9e3b3ap-40;
-// 1 / k!: the remainder after k = 13 is below 5e-18 for |r| <= ln 2 / 2.
-inline constexpr double kTaylor[] = {1.0,
-                                     1.0,
-                                     0.5,
-                                     1.0 / 6.0,
-                                     1.0 / 24.0,
-                                     1.0 / 120.0,
-                                     1.0 / 720.0,
-                                     1.0 / 5040.0,
-                                     1.0 / 40320.0,
-                                     1.0 / 362880.0,
-                                     1.0 / 3628800.0,
-                                     1.0 / 39916800.0,
-                                     1.0 / 479001600.0,
-                                     1.0 / 6227020800.0};
+inline constexpr float kWhole = 0x1.8p23f;
+// ln 2 in two parts; a product of the first with a whole number below 2^8 is exact.
+inline constexpr float kLn2High = 0x1.62e4p-1f, kLn2Low = 0x1.7f7d1cp-20f;
+// 1 / k!: the remainder after k = 7 is below 6e-9 for |r| <= ln 2 / 2.
+inline constexpr float kTaylor[] = {1.0f,         1.0f,          0.5f,          1.0f / 6.0f,
+                                    1.0f / 24.0f, 1.0f / 120.0f, 1.0f / 720.0f, 1.0f / 5040.0f};
 }  // namespace exponential
 
-inline double exp_of_negative(double x) {
+inline float exp_of_negative(float x) {
   using namespace exponential;
-  if (!(x >= kSmallest)) return 0.0;
-  const double whole = x * kLog2E + kWhole, n = whole - kWhole;
-  const double r = (x - n * kLn2High) - n * kLn2Low;
+  if (!(x >= kSmallest)) return 0.0f;
+  const float whole = x * kLog2E + kWhole, n = whole - kWhole;
+  const float r = (x - n * kLn2High) - n * kLn2Low;
   // Estrin's scheme: short chains of dependent operations.
   const auto pair = [&](int k) { return kTaylor[k] + kTaylor[k + 1] * r; };
-  const double r2 = r * r, r4 = r2 * r2, r8 = r4 * r4;
-  const auto four = [&](int k) { return pair(k) + pair(k + 2) * r2; };
-  const double sum = (four(0) + four(4) * r4) + (four(8) + pair(12) * r4) * r8;
-  return std::bit_cast<double>(std::bit_cast<uint64_t>(sum) + (std::bit_cast<uint64_t>(whole) << 52));
+  const float r2 = r * r;
+  const float sum = (pair(0) + pair(2) * r2) + (pair(4) + pair(6) * r2) * (r2 * r2);
+  return std::bit_cast<float>(std::bit_cast<uint32_t>(sum) + (std::bit_cast<uint32_t>(whole) << 23));
 }
 
 }  // namespace hybray

@@ -47,9 +47,9 @@ inline uint32_t pixel(uint64_t tag) {
 }
 }  // namespace path_tag
 
-// Paths of one block, each with its next segment.
+// Paths that go together, each with its next segment.
 struct PathFront {
-  static constexpr size_t kSize = 512;              // keeps packets well filled for several events
+  static constexpr size_t kSize = 128;              // fills packets for several events, and fits the L1 cache
   static constexpr size_t kAllocated = kSize + 16;  // vectors are read and written whole
   template <class T>
   using Lanes = std::array<T, kAllocated>;

@@ -81,8 +81,10 @@ void PathWalk::travel(double length, Path& path) const {
   path.length += length;
   const dvec3& a = optics_.media[path.medium].absorption;
   if (a == dvec3(0.0)) return;
-  const dvec3 kept = path.weight * dvec3(exp_of_negative(-a.x * length), exp_of_negative(-a.y * length),
-                                         exp_of_negative(-a.z * length));
+  const auto kept_of = [&](double coefficient) {
+    return static_cast<double>(exp_of_negative(static_cast<float>(-coefficient * length)));
+  };
+  const dvec3 kept = path.weight * dvec3(kept_of(a.x), kept_of(a.y), kept_of(a.z));
   counts_.ledger.absorbed += optics::mean(path.weight) - optics::mean(kept);
   path.weight = kept;
 }

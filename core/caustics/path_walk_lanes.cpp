@@ -193,8 +193,10 @@ using Media = hybray::HWY_NAMESPACE::Fields<D, optics::Medium>;
 // What is left of a weight after t metres (Beer-Lambert).
 HWY_INLINE Vec3 through_medium(const Media& media, V t, const Vec3& weight) {
   const Vec3 absorption = media(&optics::Medium::absorption);
-  const auto kept = [&](V a)
-                        HWY_ATTR { return hybray::HWY_NAMESPACE::exp_of_negative(hn::Mul(hn::Neg(a), t)); };
+  const auto kept = [&](V a) HWY_ATTR {
+    const VF x = hn::DemoteTo(DF(), hn::Mul(hn::Neg(a), t));
+    return hn::PromoteTo(D(), hybray::HWY_NAMESPACE::exp_of_negative(x));
+  };
   return multiply(weight, {kept(absorption.x), kept(absorption.y), kept(absorption.z)});
 }
 

@@ -52,7 +52,7 @@ void trace_photons(const Tracer& tracer, const optics::OpticsTable& optics, cons
                    const VisibilityMap& map, FirstSurface first_surface, uint16_t start_medium,
                    const WalkOptions& options, uint64_t first, uint64_t count, PhotonList& out) {
   HYBRAY_CHECK_LE(first + count, emission.paths());
-  constexpr size_t kBlock = PathFront::kSize;
+  constexpr size_t kBlock = 8 * PathFront::kSize;  // large enough for threads, while a front stays near
   struct Block {
     std::vector<Photon> photons;
     WalkCounts counts;
@@ -78,40 +78,43 @@ void trace_photons(const Tracer& tracer, const optics::OpticsTable& optics, cons
       front.hits[i] = at.hit;
       front.set(i, at.position, direction, path);
     };
-    // Paths through the map come first. Those whose first surface is stored stand there already, in the
-    // front; all others are to be traced next.
-    const uint64_t from = first + begin, through_map = std::min(first + end, emission.from_map().paths);
-    if (from < through_map) {
-      PathFront& front = stored ? memory.front() : memory.next();
-      mine.counts.ledger.emitted +=
-          start_map_paths(emission.from_map(), from, through_map - from, start_medium, front, memory.texels);
-      for (size_t i = 0; stored && i < front.count; ++i) {
-        const MapTexel& t = map.texels[memory.texels[i]];
-        stand_at(map.frames[t.frame].surface(t.x, t.y), front, i, dvec3(front.origins[i]),
-                 dvec3(front.directions[i]));
+    for (size_t part = begin; part < end; part += PathFront::kSize) {
+      // Paths through the map come first. Those whose first surface is stored stand there already, in the
+      // front; all others are to be traced next.
+      const uint64_t from = first + part, to = first + std::min(end, part + PathFront::kSize);
+      const uint64_t through_map = std::min(to, emission.from_map().paths);
+      if (from < through_map) {
+        PathFront& front = stored ? memory.front() : memory.next();
+        mine.counts.ledger.emitted += start_map_paths(emission.from_map(), from, through_map - from,
+                                                      start_medium, front, memory.texels);
+        for (size_t i = 0; stored && i < front.count; ++i) {
+          const MapTexel& t = map.texels[memory.texels[i]];
+          stand_at(map.frames[t.frame].surface(t.x, t.y), front, i, dvec3(front.origins[i]),
+                   dvec3(front.directions[i]));
+        }
       }
-    }
-    for (uint64_t i = std::max(from, through_map); i < first + end; ++i) {
-      const PathStart start = emission.start(i);
-      Path path;
-      path.weight = start.flux;
-      path.initial = optics::mean(start.flux);
-      path.number = i;
-      path.medium = start_medium;
-      path.in_map = start.in_map;
-      mine.counts.ledger.emitted += path.initial;
-      if (!(path.initial > 0.0)) continue;
-      PathFront& front = stored && start.in_map ? memory.front() : memory.next();
-      front.push(start.origin, start.direction, path);
-      if (stored && start.in_map)
-        stand_at(map.frames[start.frame].surface(start.x, start.y), front, front.count - 1, start.origin,
-                 start.direction);
-    }
-    walk.meet_hits(memory);
-    keep_arrivals();
-    while (memory.front().count > 0) {
-      walk.advance(memory);
+      for (uint64_t i = std::max(from, through_map); i < to; ++i) {
+        const PathStart start = emission.start(i);
+        Path path;
+        path.weight = start.flux;
+        path.initial = optics::mean(start.flux);
+        path.number = i;
+        path.medium = start_medium;
+        path.in_map = start.in_map;
+        mine.counts.ledger.emitted += path.initial;
+        if (!(path.initial > 0.0)) continue;
+        PathFront& front = stored && start.in_map ? memory.front() : memory.next();
+        front.push(start.origin, start.direction, path);
+        if (stored && start.in_map)
+          stand_at(map.frames[start.frame].surface(start.x, start.y), front, front.count - 1, start.origin,
+                   start.direction);
+      }
+      walk.meet_hits(memory);
       keep_arrivals();
+      while (memory.front().count > 0) {
+        walk.advance(memory);
+        keep_arrivals();
+      }
     }
   });
 

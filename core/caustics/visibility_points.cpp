@@ -7,6 +7,7 @@
 #include "core/caustics/path_walk.h"
 #include "core/optics/specular_step.h"
 
+#include <algorithm>
 #include <memory>
 
 #include <tbb/enumerable_thread_specific.h>
@@ -63,13 +64,12 @@ VisibilityPoints trace_visibility_points(const Tracer& tracer, const optics::Opt
   const auto width = static_cast<uint32_t>(g.view.width());
   const double camera_ior = optics.media[start_medium].ior;
 
-  constexpr size_t kBlock = PathFront::kSize;
+  constexpr size_t kBlock = 8 * PathFront::kSize;
   std::vector<VisibilityPoints> blocks((count + kBlock - 1) / kBlock);
   tbb::enumerable_thread_specific<std::unique_ptr<WalkMemory>> memories(std::make_unique<WalkMemory>);
   parallel_blocks(count, kBlock, [&](size_t begin, size_t end) {
     VisibilityPoints& mine = blocks[begin / kBlock];
     WalkMemory& memory = *memories.local();
-    PathFront& front = memory.front();
     PathWalk walk(tracer, optics, options.walk, mine.counts);
     const auto keep_arrivals = [&] {
       for (size_t i = 0; i < memory.arrivals.count; ++i) {
@@ -89,33 +89,36 @@ VisibilityPoints trace_visibility_points(const Tracer& tracer, const optics::Opt
       }
     };
     memory.arrivals.count = 0;
-    for (size_t i = begin; i < end; ++i) {
-      const uint32_t pixel = pixels[i / per_pixel];
-      const int x = static_cast<int>(pixel % width), y = static_cast<int>(pixel / width);
-      Path path;
-      path.number = static_cast<uint64_t>(pixel) * per_pixel + i % per_pixel;
-      path.weight = dvec3(1.0 / options.paths_per_pixel);
-      path.initial = optics::mean(path.weight);
-      path.pixel = pixel;
-      path.medium = start_medium;
-      mine.counts.ledger.emitted += path.initial;
-      dvec3 origin = g.view.eye(), direction;
-      if (options.jittered) {
-        const double jx = random_unit(path.number, 0, 1, options.walk.seed);
-        const double jy = random_unit(path.number, 1, 1, options.walk.seed);
-        direction = glm::normalize(g.view.ray_direction(x + jx, y + jy));
-        // The near plane does not cut: what is nearer is seen by a pinhole, and by the tracer.
-        front.push(origin, direction, path);
-        continue;
+    for (size_t part = begin; part < end; part += PathFront::kSize) {
+      PathFront& front = memory.front();
+      for (size_t i = part; i < std::min(end, part + PathFront::kSize); ++i) {
+        const uint32_t pixel = pixels[i / per_pixel];
+        const int x = static_cast<int>(pixel % width), y = static_cast<int>(pixel / width);
+        Path path;
+        path.number = static_cast<uint64_t>(pixel) * per_pixel + i % per_pixel;
+        path.weight = dvec3(1.0 / options.paths_per_pixel);
+        path.initial = optics::mean(path.weight);
+        path.pixel = pixel;
+        path.medium = start_medium;
+        mine.counts.ledger.emitted += path.initial;
+        dvec3 origin = g.view.eye(), direction;
+        if (options.jittered) {
+          const double jx = random_unit(path.number, 0, 1, options.walk.seed);
+          const double jy = random_unit(path.number, 1, 1, options.walk.seed);
+          direction = glm::normalize(g.view.ray_direction(x + jx, y + jy));
+          // The near plane does not cut: what is nearer is seen by a pinhole, and by the tracer.
+          front.push(origin, direction, path);
+          continue;
+        }
+        direction = glm::normalize(g.view.ray_direction(x + 0.5, y + 0.5));
+        const SurfacePoint point = stored_point(g, scene, x, y);
+        walk.travel(glm::length(point.position - origin), path);
+        if (walk.meet(point, origin, direction, path, memory.arrivals)) front.push(origin, direction, path);
       }
-      direction = glm::normalize(g.view.ray_direction(x + 0.5, y + 0.5));
-      const SurfacePoint point = stored_point(g, scene, x, y);
-      walk.travel(glm::length(point.position - origin), path);
-      if (walk.meet(point, origin, direction, path, memory.arrivals)) front.push(origin, direction, path);
-    }
-    while (memory.front().count > 0) {
-      walk.advance(memory);
-      keep_arrivals();
+      while (memory.front().count > 0) {
+        walk.advance(memory);
+        keep_arrivals();
+      }
     }
   });
 

@@ -376,7 +376,7 @@ TEST(Emission, ManyPathsAtOnceAreTheSamePathsBitByBitOnEveryInstructionSet) {
   for (const Light& light : lamps()) {
     const Lit lit(light);
     for (const EmissionKind kind : {EmissionKind::map, EmissionKind::mixture}) {
-      const Emission e = lit.emission(kind, kind == EmissionKind::map ? 500.0 : 900.0, 11);
+      const Emission e = lit.emission(kind, kind == EmissionKind::map ? 120.0 : 240.0, 11);
       const uint64_t first = 3, count = e.from_map().paths - first;  // not a whole number of vectors
       double emitted = -1.0;
       for (const std::string& target : lanes_targets()) {

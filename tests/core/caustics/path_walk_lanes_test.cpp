@@ -89,17 +89,22 @@ class PathWalkLanes : public testing::Test {
     options_.max_events = 3;
     options_.roulette_threshold = 0.5;
     options_.seed = 77;
+  }
+
+  // A front of random paths, with their hits.
+  void fill(uint64_t seed) {
+    front_->count = 0;
     const auto media = static_cast<uint64_t>(optics_.media.size());
     for (uint64_t i = 0; i < PathFront::kSize - 3; ++i) {  // not a whole number of vectors
-      const auto r = [&](uint32_t d) { return random_unit(i, d, 0, 9); };
+      const auto r = [&](uint32_t d) { return random_unit(i, d, 0, seed); };
       Path path;
       path.weight = dvec3(r(0), r(1), r(2));
       path.initial = r(3) < 0.5 ? optics::mean(path.weight) : 4.0 * r(4);
       path.length = r(5);
       path.number = i * 12345;
-      path.pixel = static_cast<uint32_t>(random_bits(i, 6, 0, 9));
-      path.medium = static_cast<uint16_t>(random_bits(i, 7, 0, 9) % media);
-      path.events = static_cast<uint16_t>(random_bits(i, 8, 0, 9) % 5);
+      path.pixel = static_cast<uint32_t>(random_bits(i, 6, 0, seed));
+      path.medium = static_cast<uint16_t>(random_bits(i, 7, 0, seed) % media);
+      path.events = static_cast<uint16_t>(random_bits(i, 8, 0, seed) % 5);
       path.in_map = r(9) < 0.5;
       const dvec3 from(16.0 * r(10) - 8.0, 16.0 * r(11) - 8.0, 16.0 * r(12) - 8.0);
       front_->push(from, glm::normalize(dvec3(r(13), r(14), r(15)) - 0.5), path);
@@ -161,45 +166,60 @@ class PathWalkLanes : public testing::Test {
   WalkOptions options_;
 };
 
+constexpr uint64_t kFronts = 24;
+
 TEST_F(PathWalkLanes, DoWhatTheScalarCodeDoesBitByBit) {
-  std::vector<bool> left_out;
-  const Outcome lanes = in_lanes(&left_out), scalar = one_by_one(left_out);
-  EXPECT_EQ(lanes.arrivals, scalar.arrivals);
-  EXPECT_EQ(lanes.next, scalar.next);
-  EXPECT_EQ(lanes.counts.medium_mismatches, scalar.counts.medium_mismatches);
-  // Sums of the same terms in another order: some hundred terms below one.
-  const FluxLedger &a = lanes.counts.ledger, &b = scalar.counts.ledger;
-  for (const auto& [x, y] : {std::pair(a.deposited, b.deposited),
-                             {a.direct, b.direct},
-                             {a.absorbed, b.absorbed},
-                             {a.escaped, b.escaped},
-                             {a.truncated, b.truncated},
-                             {a.balance, b.balance}})
-    EXPECT_NEAR(x, y, 1000.0 * 0x1p-52 * 400.0);
+  size_t arrivals = 0, next = 0, ended = 0, left = 0, paths = 0;
+  WalkCounts all;
+  for (uint64_t seed = 0; seed < kFronts; ++seed) {
+    fill(seed);
+    std::vector<bool> left_out;
+    const Outcome lanes = in_lanes(&left_out), scalar = one_by_one(left_out);
+    EXPECT_EQ(lanes.arrivals, scalar.arrivals);
+    EXPECT_EQ(lanes.next, scalar.next);
+    EXPECT_EQ(lanes.counts.medium_mismatches, scalar.counts.medium_mismatches);
+    // Sums of the same terms in another order: as many as paths, each at most one.
+    const FluxLedger &a = lanes.counts.ledger, &b = scalar.counts.ledger;
+    const auto n = static_cast<double>(front_->count);
+    for (const auto& [x, y] : {std::pair(a.deposited, b.deposited),
+                               {a.direct, b.direct},
+                               {a.absorbed, b.absorbed},
+                               {a.escaped, b.escaped},
+                               {a.truncated, b.truncated},
+                               {a.balance, b.balance}})
+      EXPECT_NEAR(x, y, n * 0x1p-52 * n);
+    arrivals += lanes.arrivals.size(), next += lanes.next.size(), ended += scalar.ended;
+    left += lanes.left, paths += front_->count;
+    all.add(lanes.counts);
+  }
   // Every kind of outcome is among them.
-  EXPECT_GT(lanes.arrivals.size(), 100u);
-  EXPECT_GT(lanes.next.size(), 100u);
-  EXPECT_GT(scalar.ended, 100u);
-  EXPECT_GT(lanes.left, 0u);
-  EXPECT_LT(lanes.left, front_->count / 5);
-  EXPECT_GT(lanes.counts.medium_mismatches, 10u);
-  for (const double term : {a.deposited, a.direct, a.absorbed, a.escaped, a.truncated, std::abs(a.balance)})
-    EXPECT_GT(term, 0.01);
+  EXPECT_GT(arrivals, paths / 20);
+  EXPECT_GT(next, paths / 10);
+  EXPECT_GT(ended, paths / 10);
+  EXPECT_GT(left, 0u);
+  EXPECT_LT(left, paths / 5);
+  EXPECT_GT(all.medium_mismatches, paths / 100);
+  const FluxLedger& l = all.ledger;
+  for (const double term : {l.deposited, l.direct, l.absorbed, l.escaped, l.truncated})
+    EXPECT_GT(term, 0.01 * static_cast<double>(paths));
+  EXPECT_NE(l.balance, 0.0);
 }
 
 TEST_F(PathWalkLanes, GiveTheSameBitsOnEveryInstructionSet) {
-  const Outcome widest = in_lanes();
-  std::vector<std::string> seen;
-  for (const std::string& target : lanes_targets()) {
-    use_lanes_target(target);
-    EXPECT_EQ(lanes_target(), target);
-    const Outcome here = in_lanes();
-    EXPECT_EQ(here.arrivals, widest.arrivals) << target;
-    EXPECT_EQ(here.next, widest.next) << target;
-    EXPECT_EQ(here.left, widest.left) << target;
-    EXPECT_EQ(std::memcmp(&here.counts, &widest.counts, sizeof(WalkCounts)), 0) << target;
+  for (uint64_t seed = 0; seed < kFronts; ++seed) {
+    fill(seed);
+    const Outcome widest = in_lanes();
+    for (const std::string& target : lanes_targets()) {
+      use_lanes_target(target);
+      EXPECT_EQ(lanes_target(), target);
+      const Outcome here = in_lanes();
+      EXPECT_EQ(here.arrivals, widest.arrivals) << target;
+      EXPECT_EQ(here.next, widest.next) << target;
+      EXPECT_EQ(here.left, widest.left) << target;
+      EXPECT_EQ(std::memcmp(&here.counts, &widest.counts, sizeof(WalkCounts)), 0) << target;
+    }
+    use_lanes_target("");
   }
-  use_lanes_target("");
 }
 
 }  // namespace
