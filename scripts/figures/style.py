@@ -81,10 +81,19 @@ def letter(axes: list[Axes]) -> None:
         axis.set_title("")
 
 
+def settle(figure: Figure) -> None:
+    """Lays the panels out once and for all. The solver's last bits vary from run to run, so the places are rounded."""
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")
+    for axis in figure.axes:
+        axis.set_position([round(edge, 6) for edge in axis.get_position(original=True).bounds])
+
+
 def save(figure: Figure, folder: Path, stem: str) -> list[Path]:
     """Writes PDF, SVG and PNG, without dates or versions, and closes the figure."""
     metadata = {"pdf": {"Creator": "hybray", "Producer": None, "CreationDate": None}, "svg": {"Date": None, "Creator": "hybray"},
                 "png": {"Software": "hybray"}}
+    settle(figure)
     written = []
     for kind, entries in metadata.items():
         path = folder / f"{stem}.{kind}"
