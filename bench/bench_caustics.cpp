@@ -22,7 +22,8 @@ constexpr size_t kBlock = PathFront::kSize;
 
 // Rays of one front, as the walk handed them to the tracer.
 struct Batch {
-  std::vector<vec3> origins, directions;
+  RayBatch<PathFront::kAllocated> rays;
+  size_t count;
 };
 
 struct CausticBench {
@@ -56,8 +57,7 @@ struct CausticBench {
         }
         while (const size_t count = memory->front().count) {
           const PathFront& front = memory->front();
-          batches.push_back({{front.origins.begin(), front.origins.begin() + count},
-                             {front.directions.begin(), front.directions.begin() + count}});
+          batches.push_back({front.rays, count});
           rays += count;
           walk.advance(*memory);
         }
@@ -103,9 +103,10 @@ template <TraceMode kMode>
 void bare_trace(State& state, CausticBench& b) {
   for (auto _ : state)
     parallel_blocks(b.batches.size(), 1, [&](size_t begin, size_t) {
-      std::vector<Hit> hits(b.batches[begin].origins.size());
-      b.tracer.intersect_batch(b.batches[begin].origins, b.batches[begin].directions, hits, kMode);
-      benchmark::DoNotOptimize(hits.data());
+      const Batch& batch = b.batches[begin];
+      HitBatch<PathFront::kAllocated> hits;
+      b.tracer.intersect_batch(batch.rays.lanes(), batch.count, hits.lanes(), kMode);
+      benchmark::DoNotOptimize(hits);
     });
   per_second(state, b.rays);
 }

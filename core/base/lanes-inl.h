@@ -58,7 +58,8 @@ HWY_INLINE Vec3Lanes<V> negate_where(const M mask, const Vec3Lanes<V>& a) {
 
 // Brings the lanes of a mask to the front, for vectors of at most eight lanes. What a mask's order is gets
 // worked out once, however many vectors follow; Highway's Compress would do it for each, and loads its tables
-// anew.
+// anew. No branch on how many there are: a mask is known late, and a wrong guess would throw away the work on
+// the lanes that come next.
 template <class D>
 class LanePacking {
  public:
@@ -69,12 +70,10 @@ class LanePacking {
     hn::StoreMaskBits(D(), mask, bits);
     order_ = kLaneOrder[bits[0]];
     count_ = hn::CountTrue(D(), mask);
-    all_ = count_ == hn::Lanes(D());
   }
   HWY_INLINE size_t count() const { return count_; }
   template <class V>
   HWY_INLINE V packed(V v) const {
-    if (all_) return v;
     const hn::RebindToUnsigned<hn::DFromV<V>> d;
     static_assert(decltype(d)::kPrivateN <= kMostLanes);
     using T = hn::TFromD<decltype(d)>;
@@ -87,7 +86,6 @@ class LanePacking {
  private:
   uint32_t order_;
   size_t count_;
-  bool all_;
 };
 
 }  // namespace HWY_NAMESPACE

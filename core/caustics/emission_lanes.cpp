@@ -43,10 +43,11 @@ HWY_INLINE Vec3 set(const dvec3& v) {
   return {hn::Set(d, v.x), hn::Set(d, v.y), hn::Set(d, v.z)};
 }
 
-HWY_INLINE void store(const Packed& packed, const Vec3& v, vec3* to) {
+HWY_INLINE void store(const Packed& packed, const Vec3& v, float* x, float* y, float* z) {
   const DF df;
-  hn::StoreInterleaved3(packed.packed(hn::DemoteTo(df, v.x)), packed.packed(hn::DemoteTo(df, v.y)),
-                        packed.packed(hn::DemoteTo(df, v.z)), df, &to->x);
+  hn::StoreU(packed.packed(hn::DemoteTo(df, v.x)), df, x);
+  hn::StoreU(packed.packed(hn::DemoteTo(df, v.y)), df, y);
+  hn::StoreU(packed.packed(hn::DemoteTo(df, v.z)), df, z);
 }
 
 HWY_INLINE Vec3 intensity(const Intensity& light, const Vec3& direction) {
@@ -122,8 +123,8 @@ double start_map_paths(const MapEmission& emission, uint64_t first, size_t count
 
     const Packed packed(shines);
     const size_t at = to.count;
-    store(packed, origin, &to.origins[at]);
-    store(packed, direction, &to.directions[at]);
+    store(packed, origin, &to.rays.ox[at], &to.rays.oy[at], &to.rays.oz[at]);
+    store(packed, direction, &to.rays.dx[at], &to.rays.dy[at], &to.rays.dz[at]);
     hn::StoreU(packed.packed(flux.x), d, &to.red[at]);
     hn::StoreU(packed.packed(flux.y), d, &to.green[at]);
     hn::StoreU(packed.packed(flux.z), d, &to.blue[at]);

@@ -5,7 +5,7 @@
 #include "core/base/vec.h"
 #include "core/caustics/photon.h"
 #include "core/optics/surface_optics.h"
-#include "core/tracer/tracer.h"
+#include "core/tracer/ray_batch.h"
 
 #include <array>
 #include <cstddef>
@@ -54,8 +54,8 @@ struct PathFront {
   template <class T>
   using Lanes = std::array<T, kAllocated>;
 
-  alignas(64) Lanes<vec3> origins, directions;
-  alignas(64) Lanes<Hit> hits;
+  RayBatch<kAllocated> rays;
+  HitBatch<kAllocated> hits;
   alignas(64) Lanes<double> red, green, blue;  // of Path::weight
   alignas(64) Lanes<double> initial, length;
   alignas(64) Lanes<uint64_t> number, tag;
@@ -65,7 +65,7 @@ struct PathFront {
     set(count++, origin, direction, path);
   }
   void set(size_t i, const dvec3& origin, const dvec3& direction, const Path& path) {
-    origins[i] = vec3(origin), directions[i] = vec3(direction);
+    rays.set(i, vec3(origin), vec3(direction));
     red[i] = path.weight.x, green[i] = path.weight.y, blue[i] = path.weight.z;
     initial[i] = path.initial, length[i] = path.length;
     number[i] = path.number, tag[i] = path_tag::of(path);
@@ -87,10 +87,15 @@ struct PathFront {
 // Paths that met a diffuse part after a specular event, each as it was on arrival; the photon's flux is the
 // path's weight.
 struct Arrivals {
-  alignas(64) PathFront::Lanes<Photon> photons;
+  Arrivals() = default;
+  Arrivals(const Arrivals&) = delete;
+  Arrivals& operator=(const Arrivals&) = delete;
+
+  Photon* photons = own.data();  // room for a front's; a list of photons may stand in for the own memory
   alignas(64) PathFront::Lanes<double> length;
   alignas(64) PathFront::Lanes<uint64_t> tag;
   size_t count = 0;
+  alignas(64) PathFront::Lanes<Photon> own;
 
   void push(const Photon& photon, const Path& path) {
     photons[count] = photon, length[count] = path.length, tag[count] = path_tag::of(path);

@@ -52,9 +52,7 @@ PathWalk::PathWalk(const Tracer& tracer, const optics::OpticsTable& optics, cons
 
 void PathWalk::advance(WalkMemory& memory) const {
   PathFront& front = memory.front();
-  tracer_.intersect_batch(std::span(front.origins).first(front.count),
-                          std::span(front.directions).first(front.count),
-                          std::span(front.hits).first(front.count), options_.mode);
+  tracer_.intersect_batch(front.rays.lanes(), front.count, front.hits.lanes(), options_.mode);
   counts_.rays += front.count;
   meet_hits(memory);
 }
@@ -65,9 +63,9 @@ void PathWalk::meet_hits(WalkMemory& memory) const {
   meet_triangles(optics_, options_, front, memory.next(), memory.arrivals, memory.left, counts_);
   for (size_t j = 0; j < memory.left.count; ++j) {
     const size_t i = memory.left.index[j];
-    const Hit& hit = front.hits[i];
+    const Hit hit = front.hits[i];
     const double t = static_cast<double>(hit.t);
-    dvec3 direction(front.directions[i]), origin = dvec3(front.origins[i]) + t * direction;
+    dvec3 direction(front.rays.direction(i)), origin = dvec3(front.rays.origin(i)) + t * direction;
     const SurfacePoint point = optics_.surfaces.point(hit.primitive, hit.u, hit.v, origin);
     Path path = front.path(i);
     travel(t, path);

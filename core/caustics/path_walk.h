@@ -7,6 +7,7 @@
 #include "core/caustics/path_walk_lanes.h"
 #include "core/caustics/photon.h"
 #include "core/scene/surface_point.h"
+#include "core/tracer/tracer.h"
 
 namespace hybray::caustics {
 

@@ -71,6 +71,10 @@ HWY_INLINE Vec3f load(const vec3* from) {
   hn::LoadInterleaved3(DF(), &from->x, v.x, v.y, v.z);
   return v;
 }
+HWY_INLINE Vec3f load(const float* x, const float* y, const float* z) {
+  const DF df;
+  return {hn::Load(df, x), hn::Load(df, y), hn::Load(df, z)};
+}
 HWY_INLINE M flag(VU tag, uint64_t bits) {
   return hn::RebindMask(D(), hn::TestBit(tag, hn::Set(DU(), bits)));
 }
@@ -86,9 +90,8 @@ class Packed {
   }
   HWY_INLINE VF packed(VF v) const { return packing_.packed(v); }
   HWY_INLINE Vec3f packed(const Vec3f& v) const { return {packed(v.x), packed(v.y), packed(v.z)}; }
-  HWY_INLINE void store(const Vec3f& v, vec3* to) const {
-    const Vec3f p = packed(v);
-    hn::StoreInterleaved3(p.x, p.y, p.z, DF(), &to->x);
+  HWY_INLINE void store(const Vec3f& v, float* x, float* y, float* z) const {
+    store(v.x, x), store(v.y, y), store(v.z, z);
   }
 
  private:
@@ -117,7 +120,7 @@ struct StagedTriangles {
     const Scene& scene = table.scene();
     all_flat = true;
     for (size_t lane = 0; lane < lanes && first + lane < from.count; ++lane) {
-      const uint32_t primitive = from.hits[first + lane].primitive;
+      const uint32_t primitive = from.hits.primitive[first + lane];
       if (primitive >= table.entries().size()) continue;
       entries[lane] = table.entries()[primitive];
       if (entries[lane].flat()) continue;
@@ -276,11 +279,11 @@ HWY_INLINE Vec3 reflection(const Surface& surface, const Vec3& direction) {
   return select(leaves, out, optics::HWY_NAMESPACE::reflected(direction, surface.geometric));
 }
 
-// Four values of each lane, the lanes packed, as one quarter of a photon.
-HWY_INLINE void store_quarter(const Packed& lanes, const Vec3f& v, VF w, Photon* photons, size_t quarter) {
+// Four values of each lane as one quarter of a photon. All lanes, however many count: see LanePacking.
+HWY_INLINE void store_quarter(const Vec3f& v, VF w, Photon* photons, size_t quarter) {
   alignas(64) float quads[kMostLanes][4];
   hn::StoreInterleaved4(v.x, v.y, v.z, w, DF(), &quads[0][0]);
-  for (size_t i = 0; i < lanes.count(); ++i)
+  for (size_t i = 0; i < hn::Lanes(DF()); ++i)
     std::memcpy(reinterpret_cast<char*>(photons + i) + sizeof(quads[0]) * quarter, quads[i],
                 sizeof(quads[0]));
 }
@@ -299,7 +302,7 @@ HWY_INLINE void arrive(const Packed& lanes, const Surface& surface, const Vec3f&
   const VU events = hn::And(tag, hn::Set(du, path_tag::kEvents));
   Photon* photons = &to.photons[to.count];
   const auto quarter = [&](size_t i, const Vec3f& v, VF w)
-                           HWY_ATTR { store_quarter(lanes, lanes.packed(v), lanes.packed(w), photons, i); };
+                           HWY_ATTR { store_quarter(lanes.packed(v), lanes.packed(w), photons, i); };
   quarter(0, demoted(surface.position), hn::DemoteTo(df, surface.cos_incident));
   quarter(1, demoted(surface.geometric), word(hn::BitCast(du, surface.material)));
   quarter(2, direction, word(primitive));
@@ -312,9 +315,9 @@ HWY_INLINE void arrive(const Packed& lanes, const Surface& surface, const Vec3f&
 // Hits are scattered over memory: what the next lanes need is on its way while these are worked on.
 HWY_INLINE void prefetch(const SurfaceTable& table, const PathFront& from, size_t i, size_t lanes) {
   for (size_t j = i + 3 * lanes; j < std::min(from.count, i + 4 * lanes); ++j)
-    table.prefetch_entry(from.hits[j].primitive);
+    table.prefetch_entry(from.hits.primitive[j]);
   for (size_t j = i + 2 * lanes; j < std::min(from.count, i + 3 * lanes); ++j)
-    table.prefetch_normals(from.hits[j].primitive);
+    table.prefetch_normals(from.hits.primitive[j]);
 }
 
 void meet_triangles(const optics::OpticsTable& optics, const WalkOptions& options, const PathFront& from,
@@ -336,9 +339,7 @@ void meet_triangles(const optics::OpticsTable& optics, const WalkOptions& option
     prefetch(table, from, i, lanes);
     const StagedTriangles& staged = stages[i / lanes % 2];
     stages[1 - i / lanes % 2].stage(table, from, i + lanes, lanes);
-    VF t32, primitive_bits, u, v;
-    hn::LoadInterleaved4(df, &from.hits[i].t, t32, primitive_bits, u, v);
-    const VU any_primitive = hn::PromoteTo(du, hn::BitCast(DF32U(), primitive_bits));
+    const VU any_primitive = hn::PromoteTo(du, hn::Load(DF32U(), &from.hits.primitive[i]));
     const M here = hn::FirstN(d, from.count - i);
     const M misses = hn::And(here, hn::RebindMask(d, hn::Eq(any_primitive, none)));
     const M valid = hn::And(here, hn::RebindMask(d, hn::Lt(any_primitive, triangles)));
@@ -348,11 +349,13 @@ void meet_triangles(const optics::OpticsTable& optics, const WalkOptions& option
 
     if (!hn::AllFalse(d, valid)) {
       const VU primitive = hn::IfThenElseZero(hn::RebindMask(du, valid), any_primitive);
-      const Vec3f direction_f = load(&from.directions[i]);
+      const auto& rays = from.rays;
+      const Vec3f direction_f = load(&rays.dx[i], &rays.dy[i], &rays.dz[i]);
       const Vec3 direction = promoted(direction_f);
-      const V t = hn::PromoteTo(d, t32);
-      const Vec3 hit = add(promoted(load(&from.origins[i])), scale(t, direction));
-      const Surface surface = surface_at(staged, u, v, hit, direction);
+      const V t = hn::PromoteTo(d, hn::Load(df, &from.hits.t[i]));
+      const Vec3 hit = add(promoted(load(&rays.ox[i], &rays.oy[i], &rays.oz[i])), scale(t, direction));
+      const Surface surface =
+          surface_at(staged, hn::Load(df, &from.hits.u[i]), hn::Load(df, &from.hits.v[i]), hit, direction);
       const Materials materials(optics.materials, surface.material, valid);
       const VU surface_bits = materials(&Optics::tag), tag = hn::Load(du, &from.tag[i]);
       const VU medium = hn::And(hn::ShiftRight<path_tag::kMediumShift>(tag), low);
@@ -366,8 +369,8 @@ void meet_triangles(const optics::OpticsTable& optics, const WalkOptions& option
       const V arriving = mean(weight);
       const M specular = hn::And(valid, flag(surface_bits, optics::surface_tag::kSpecular));
       M live = valid;
-      V base_entry, specular_sum = zero, after = zero;
-      M goes_on = hn::FirstN(d, 0), cut = goes_on, specular_live = goes_on;
+      V base_entry, specular_sum = zero;
+      M goes_on = hn::FirstN(d, 0);
       Vec3 out_direction = direction, out_weight = weight, out_origin = hit;
       VU out_tag = tag;
 
@@ -383,7 +386,7 @@ void meet_triangles(const optics::OpticsTable& optics, const WalkOptions& option
         const M may_go =
             hn::RebindMask(d, hn::Lt(events, hn::Set(du, static_cast<uint64_t>(options.max_events))));
         const M candidates = hn::And(some, may_go);
-        cut = hn::AndNot(may_go, some);
+        const M cut = hn::AndNot(may_go, some);
 
         const VU dimension = hn::Add(hn::Set(du, uint64_t{kFirstWalkDimension}), hn::Add(events, events));
         const VU stream = hybray::HWY_NAMESPACE::random_stream(hn::Load(du, &from.number[i]), options.seed);
@@ -405,7 +408,7 @@ void meet_triangles(const optics::OpticsTable& optics, const WalkOptions& option
         const V step = hn::IfThenElse(mirrored, surface.offset, hn::Neg(surface.offset));
         out_origin = add(surface.position, scale(step, surface.geometric));
 
-        after = specular_sum;
+        V after = specular_sum;
         M survives = candidates;
         const V wanted = hn::Mul(hn::Set(d, options.roulette_threshold), hn::Load(d, &from.initial[i]));
         const M gambles = hn::And(candidates, hn::Lt(specular_sum, wanted));
@@ -419,7 +422,10 @@ void meet_triangles(const optics::OpticsTable& optics, const WalkOptions& option
           after = hn::IfThenElse(gambles, hn::IfThenZeroElse(lost, mean(out_weight)), after);
         }
         goes_on = hn::And(survives, live);
-        specular_live = hn::And(candidates, live);
+        const M specular_live = hn::And(candidates, live);
+
+        ledger.add(Term::truncated, i, hn::And(live, cut), specular_sum);
+        ledger.add(Term::balance, i, specular_live, hn::Sub(specular_sum, after));
 
         // An interface that is crossed leads into the medium of its other side.
         const VU inner = hn::And(hn::ShiftRight<optics::surface_tag::kInnerShift>(surface_bits), low);
@@ -442,8 +448,6 @@ void meet_triangles(const optics::OpticsTable& optics, const WalkOptions& option
       ledger.add(Term::direct, i, hn::And(enters, first), entry);
       ledger.add(Term::deposited, i, hn::AndNot(first, enters), entry);
       ledger.add(Term::absorbed, i, live, hn::Add(absorbed, hn::Sub(hn::Sub(arriving, entry), specular_sum)));
-      ledger.add(Term::truncated, i, hn::And(live, cut), specular_sum);
-      ledger.add(Term::balance, i, specular_live, hn::Sub(specular_sum, after));
 
       const Packed arriving_lanes(hn::AndNot(first, enters));
       if (arriving_lanes.count() > 0)
@@ -451,8 +455,8 @@ void meet_triangles(const optics::OpticsTable& optics, const WalkOptions& option
       const Packed going(goes_on);
       if (going.count() > 0) {
         const size_t at = to.count;
-        going.store(demoted(out_origin), &to.origins[at]);
-        going.store(demoted(out_direction), &to.directions[at]);
+        going.store(demoted(out_origin), &to.rays.ox[at], &to.rays.oy[at], &to.rays.oz[at]);
+        going.store(demoted(out_direction), &to.rays.dx[at], &to.rays.dy[at], &to.rays.dz[at]);
         going.store(out_weight.x, &to.red[at]);
         going.store(out_weight.y, &to.green[at]);
         going.store(out_weight.z, &to.blue[at]);

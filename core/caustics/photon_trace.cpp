@@ -54,7 +54,7 @@ void trace_photons(const Tracer& tracer, const optics::OpticsTable& optics, cons
   HYBRAY_CHECK_LE(first + count, emission.paths());
   constexpr size_t kBlock = 8 * PathFront::kSize;  // large enough for threads, while a front stays near
   struct Block {
-    std::vector<Photon> photons;
+    PhotonBlock photons;
     WalkCounts counts;
   };
   std::vector<Block> blocks((count + kBlock - 1) / kBlock);
@@ -62,12 +62,13 @@ void trace_photons(const Tracer& tracer, const optics::OpticsTable& optics, cons
   tbb::enumerable_thread_specific<std::unique_ptr<WalkMemory>> memories(std::make_unique<WalkMemory>);
   parallel_blocks(count, kBlock, [&](size_t begin, size_t end) {
     Block& mine = blocks[begin / kBlock];
-    mine.photons.reserve(end - begin);
+    mine.photons.room(end - begin + PathFront::kAllocated);
     WalkMemory& memory = *memories.local();
     PathWalk walk(tracer, optics, options, mine.counts);
-    const auto keep_arrivals = [&] {
-      const auto from = memory.arrivals.photons.begin();
-      mine.photons.insert(mine.photons.end(), from, from + static_cast<ptrdiff_t>(memory.arrivals.count));
+    const auto in_place = [&](const auto& step) {
+      memory.arrivals.photons = mine.photons.room(PathFront::kAllocated);
+      step();
+      mine.photons.add(memory.arrivals.count);
     };
     const bool stored = first_surface == FirstSurface::stored;
     const auto stand_at = [&](const LightTexel& texel, PathFront& front, size_t i, const dvec3& origin,
@@ -75,7 +76,7 @@ void trace_photons(const Tracer& tracer, const optics::OpticsTable& optics, cons
       const StoredHit at = stored_hit(tracer.scene(), texel, origin, direction);
       Path path = front.path(i);
       walk.travel(glm::length(at.position - origin), path);
-      front.hits[i] = at.hit;
+      front.hits.set(i, at.hit);
       front.set(i, at.position, direction, path);
     };
     for (size_t part = begin; part < end; part += PathFront::kSize) {
@@ -89,8 +90,8 @@ void trace_photons(const Tracer& tracer, const optics::OpticsTable& optics, cons
                                                       start_medium, front, memory.texels);
         for (size_t i = 0; stored && i < front.count; ++i) {
           const MapTexel& t = map.texels[memory.texels[i]];
-          stand_at(map.frames[t.frame].surface(t.x, t.y), front, i, dvec3(front.origins[i]),
-                   dvec3(front.directions[i]));
+          stand_at(map.frames[t.frame].surface(t.x, t.y), front, i, dvec3(front.rays.origin(i)),
+                   dvec3(front.rays.direction(i)));
         }
       }
       for (uint64_t i = std::max(from, through_map); i < to; ++i) {
@@ -109,12 +110,8 @@ void trace_photons(const Tracer& tracer, const optics::OpticsTable& optics, cons
           stand_at(map.frames[start.frame].surface(start.x, start.y), front, front.count - 1, start.origin,
                    start.direction);
       }
-      walk.meet_hits(memory);
-      keep_arrivals();
-      while (memory.front().count > 0) {
-        walk.advance(memory);
-        keep_arrivals();
-      }
+      in_place([&] { walk.meet_hits(memory); });
+      while (memory.front().count > 0) in_place([&] { walk.advance(memory); });
     }
   });
 

@@ -14,8 +14,8 @@ constexpr uint32_t kTile = kMortonTile * kMortonTile;
 
 // Traces one tile; returns the number of its texels.
 size_t trace_tile(const Tracer& tracer, LightBuffer& buffer, int tile_x, int tile_y) {
-  std::array<vec3, kTile> origins, directions;
-  std::array<Hit, kTile> hits;
+  RayBatch<kTile> rays;
+  HitBatch<kTile> hits;
   std::array<ivec2, kTile> places;
   size_t count = 0;
   const LightFrame& frame = buffer.frame;
@@ -23,13 +23,11 @@ size_t trace_tile(const Tracer& tracer, LightBuffer& buffer, int tile_x, int til
     const int x = tile_x + morton_x(i), y = tile_y + morton_y(i);
     if (x >= frame.width || y >= frame.height) continue;
     places[count] = ivec2(x, y);
-    origins[count] = vec3(frame.ray_origin(x + 0.5, y + 0.5));
-    directions[count++] = vec3(frame.ray_direction(x + 0.5, y + 0.5));
+    rays.set(count++, vec3(frame.ray_origin(x + 0.5, y + 0.5)), vec3(frame.ray_direction(x + 0.5, y + 0.5)));
   }
-  tracer.intersect_batch(std::span(origins).first(count), std::span(directions).first(count),
-                         std::span(hits).first(count), TraceMode::packet16_coherent);
+  tracer.intersect_batch(rays.lanes(), count, hits.lanes(), TraceMode::packet16_coherent);
   for (size_t i = 0; i < count; ++i)
-    buffer.texels.at(places[i].x, places[i].y) = {hits[i].t, hits[i].primitive, hits[i].u, hits[i].v};
+    buffer.texels.at(places[i].x, places[i].y) = {hits.t[i], hits.primitive[i], hits.u[i], hits.v[i]};
   return count;
 }
 

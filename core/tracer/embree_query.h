@@ -12,8 +12,9 @@
 #include <embree3/rtcore.h>
 #endif
 
-#include <algorithm>
+#include <cstring>
 #include <limits>
+#include <span>
 
 namespace hybray::embree {
 
@@ -98,13 +99,26 @@ void prepare_packet(Packet& p, float t_near) {
   }
 }
 
-// What differs from ray to ray, and what the last query may have overwritten.
+struct OriginAndDirection {
+  vec3 origin, direction;
+};
+
 template <class Packet>
-void set_lane(Packet& p, int lane, const vec3& o, const vec3& d, float t_far) {
-  p.ray.org_x[lane] = o.x, p.ray.org_y[lane] = o.y, p.ray.org_z[lane] = o.z;
-  p.ray.dir_x[lane] = d.x, p.ray.dir_y[lane] = d.y, p.ray.dir_z[lane] = d.z;
-  p.ray.tfar[lane] = t_far;
-  p.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
+void set_lane(Packet& p, int lane, const OriginAndDirection& ray) {
+  p.ray.org_x[lane] = ray.origin.x, p.ray.org_y[lane] = ray.origin.y, p.ray.org_z[lane] = ray.origin.z;
+  p.ray.dir_x[lane] = ray.direction.x, p.ray.dir_y[lane] = ray.direction.y;
+  p.ray.dir_z[lane] = ray.direction.z;
+}
+
+// What the last query may have overwritten. A lane that meets nothing keeps it.
+template <int N, class Packet>
+void clear_hits(Packet& p, float t_far = kInfinity) {
+  static_assert(RTC_INVALID_GEOMETRY_ID == kNoPrimitive);
+  for (int lane = 0; lane < N; ++lane) {
+    p.ray.tfar[lane] = t_far;
+    p.hit.primID[lane] = kNoPrimitive, p.hit.geomID[lane] = RTC_INVALID_GEOMETRY_ID;
+    p.hit.u[lane] = p.hit.v[lane] = 0.0f;
+  }
 }
 
 template <class Packet>
@@ -132,15 +146,58 @@ inline Hit ray_hit(const RTCRayHit& r) {
   return {r.ray.tfar, r.hit.primID, r.hit.u, r.hit.v};
 }
 
-struct OriginAndDirection {
-  vec3 origin, direction;
+// The rays that trace_rays() is given and where their hits go: some that lie side by side, which packets copy
+// as they are, ...
+struct Neighbours {
+  RayLanes rays;
+  HitLanes hits;  // u and v may be null
+
+  OriginAndDirection ray(size_t i) const {
+    return {vec3(rays.ox[i], rays.oy[i], rays.oz[i]), vec3(rays.dx[i], rays.dy[i], rays.dz[i])};
+  }
+  void keep(size_t i, const Hit& hit) const {
+    hits.t[i] = hit.t, hits.primitive[i] = hit.primitive;
+    if (hits.u) hits.u[i] = hit.u, hits.v[i] = hit.v;
+  }
+  template <int N, class Packet>
+  void fill(size_t first, Packet& p) const {
+    const auto copy = [&](const float* from, float* to) { std::memcpy(to, from + first, N * sizeof(float)); };
+    copy(rays.ox, p.ray.org_x), copy(rays.oy, p.ray.org_y), copy(rays.oz, p.ray.org_z);
+    copy(rays.dx, p.ray.dir_x), copy(rays.dy, p.ray.dir_y), copy(rays.dz, p.ray.dir_z);
+    clear_hits<N>(p);
+  }
+  template <int N, class Packet>
+  void keep_all(size_t first, const Packet& p) const {
+    const auto copy = [&](const auto* from, auto* to) { std::memcpy(to + first, from, N * sizeof(*to)); };
+    copy(p.ray.tfar, hits.t), copy(p.hit.primID, hits.primitive);
+    if (hits.u) copy(p.hit.u, hits.u), copy(p.hit.v, hits.v);
+  }
 };
 
-// Nearest hits of rays [begin, end), N neighbours at a time: load(i) gives ray i as an OriginAndDirection,
-// store(i, Hit) takes what it met.
-template <int N, class Load, class Store>
-void trace_packets(RTCScene scene, bool coherent, size_t begin, size_t end, const Load& load,
-                   const Store& store) {
+// ... or some of a stream, listed by index.
+struct Listed {
+  const RayStream& rays;
+  std::span<const uint32_t> which;
+  HitStream& hits;
+
+  OriginAndDirection ray(size_t j) const { return {rays.origin(which[j]), rays.direction(which[j])}; }
+  void keep(size_t j, const Hit& hit) const {
+    hits.t[which[j]] = hit.t, hits.primitive[which[j]] = hit.primitive;
+  }
+  template <int N, class Packet>
+  void fill(size_t first, Packet& p) const {
+    for (int lane = 0; lane < N; ++lane) set_lane(p, lane, ray(first + lane));
+    clear_hits<N>(p);
+  }
+  template <int N, class Packet>
+  void keep_all(size_t first, const Packet& p) const {
+    for (int lane = 0; lane < N; ++lane) keep(first + lane, lane_hit(p, lane));
+  }
+};
+
+// Nearest hits of rays [begin, end), N neighbours at a time.
+template <int N, class Rays>
+void trace_packets(RTCScene scene, bool coherent, size_t begin, size_t end, const Rays& rays) {
   Query q(coherent);
   typename PacketType<N>::type packet{};
   prepare_packet<N>(packet, 0.0f);
@@ -148,52 +205,48 @@ void trace_packets(RTCScene scene, bool coherent, size_t begin, size_t end, cons
   for (int& lane : valid) lane = -1;
   size_t first = begin;
   for (; first + N <= end; first += N) {
-    for (int lane = 0; lane < N; ++lane) {
-      const OriginAndDirection ray = load(first + lane);
-      set_lane(packet, lane, ray.origin, ray.direction, kInfinity);
-    }
+    rays.template fill<N>(first, packet);
     query(valid, scene, q, packet);
-    for (int lane = 0; lane < N; ++lane) store(first + lane, lane_hit(packet, lane));
+    rays.template keep_all<N>(first, packet);
   }
   if (first == end) return;
   const int count = static_cast<int>(end - first);
   for (int lane = 0; lane < N; ++lane) {
     // Lanes without a ray repeat the first, so that no number in the packet is left to chance.
-    const OriginAndDirection ray = load(first + (lane < count ? lane : 0));
-    set_lane(packet, lane, ray.origin, ray.direction, kInfinity);
+    set_lane(packet, lane, rays.ray(first + (lane < count ? lane : 0)));
     valid[lane] = lane < count ? -1 : 0;
   }
+  clear_hits<N>(packet);
   query(valid, scene, q, packet);
-  for (int lane = 0; lane < count; ++lane) store(first + lane, lane_hit(packet, lane));
+  for (int lane = 0; lane < count; ++lane) rays.keep(first + lane, lane_hit(packet, lane));
 }
 
-template <class Load, class Store>
-void trace_rays(RTCScene scene, TraceMode mode, size_t begin, size_t end, const Load& load,
-                const Store& store) {
+template <class Rays>
+void trace_rays(RTCScene scene, TraceMode mode, size_t begin, size_t end, const Rays& rays) {
   const bool coherent = mode >= TraceMode::packet4_coherent;
   switch (mode) {
     case TraceMode::single: {
       Query q(false);
       RTCRayHit r = make_ray_hit(0.0f);
       for (size_t i = begin; i < end; ++i) {
-        const OriginAndDirection ray = load(i);
+        const OriginAndDirection ray = rays.ray(i);
         set_ray(r, ray.origin, ray.direction, kInfinity);
         query(scene, q, r);
-        store(i, ray_hit(r));
+        rays.keep(i, ray_hit(r));
       }
       break;
     }
     case TraceMode::packet4:
     case TraceMode::packet4_coherent:
-      trace_packets<4>(scene, coherent, begin, end, load, store);
+      trace_packets<4>(scene, coherent, begin, end, rays);
       break;
     case TraceMode::packet8:
     case TraceMode::packet8_coherent:
-      trace_packets<8>(scene, coherent, begin, end, load, store);
+      trace_packets<8>(scene, coherent, begin, end, rays);
       break;
     case TraceMode::packet16:
     case TraceMode::packet16_coherent:
-      trace_packets<16>(scene, coherent, begin, end, load, store);
+      trace_packets<16>(scene, coherent, begin, end, rays);
       break;
   }
 }

@@ -4,6 +4,7 @@
 
 #include "core/base/ray_stream.h"
 #include "core/scene/scene.h"
+#include "core/tracer/ray_batch.h"
 
 #include <cstdint>
 #include <limits>
@@ -30,14 +31,6 @@ inline constexpr TraceMode kAllTraceModes[] = {TraceMode::single,           Trac
                                                TraceMode::packet4_coherent, TraceMode::packet8_coherent,
                                                TraceMode::packet16_coherent};
 const char* label(TraceMode mode);
-
-// Nearest hit of one ray.
-struct Hit {
-  float t = std::numeric_limits<float>::infinity();  // metres along the (unit) direction
-  uint32_t primitive = kNoPrimitive;                 // its id in the scene
-  float u = 0.0f, v = 0.0f;  // barycentric weights of a triangle's second and third vertex
-  bool valid() const { return primitive != kNoPrimitive; }
-};
 
 class Tracer {
  public:
@@ -72,10 +65,9 @@ class Tracer {
   void trace_some(const RayStream& rays, std::span<const uint32_t> which, HitStream& hits,
                   TraceMode mode) const;
 
-  // Nearest hits of a batch of rays on the calling thread alone, for callers inside a parallel loop: the
-  // three spans have one length, directions unit length, and rays start at t = 0. Allocates nothing.
-  void intersect_batch(std::span<const vec3> origins, std::span<const vec3> directions, std::span<Hit> hits,
-                       TraceMode mode) const;
+  // Nearest hits of `count` rays on the calling thread alone, for callers inside a parallel loop. Directions
+  // have unit length, and rays start at t = 0. Allocates nothing.
+  void intersect_batch(const RayLanes& rays, size_t count, const HitLanes& hits, TraceMode mode) const;
 
   // Nearest hits with t in [t_near, t_far] of `count` <= 16 rays from one common origin, as one coherent
   // packet (primary rays of a tile). Directions need not have unit length; t is in units of their length.

@@ -125,16 +125,8 @@ bool Tracer::occluded(const vec3& origin, const vec3& direction, float t_near, f
   return r.ray.tfar < 0.0f;
 }
 
-void Tracer::intersect_batch(std::span<const vec3> origins, std::span<const vec3> directions,
-                             std::span<Hit> hits, TraceMode mode) const {
-  HYBRAY_CHECK_EQ(origins.size(), directions.size());
-  HYBRAY_CHECK_EQ(origins.size(), hits.size());
-  embree::trace_rays(
-      impl_->rtc, mode, 0, origins.size(),
-      [&](size_t i) {
-        return embree::OriginAndDirection{origins[i], directions[i]};
-      },
-      [&](size_t i, const Hit& hit) { hits[i] = hit; });
+void Tracer::intersect_batch(const RayLanes& rays, size_t count, const HitLanes& hits, TraceMode mode) const {
+  embree::trace_rays(impl_->rtc, mode, 0, count, embree::Neighbours{rays, hits});
 }
 
 void Tracer::trace(const RayStream& rays, HitStream& hits, TraceMode mode) const {
@@ -150,24 +142,14 @@ void Tracer::trace_some(const RayStream& rays, std::span<const uint32_t> which, 
 
 void Tracer::trace_blocks(const RayStream& rays, std::span<const uint32_t> which, size_t count,
                           HitStream& hits, TraceMode mode) const {
-  const auto trace_listed = [&](size_t begin, size_t end, const auto& index) {
-    embree::trace_rays(
-        impl_->rtc, mode, begin, end,
-        [&](size_t j) {
-          const size_t i = index(j);
-          return embree::OriginAndDirection{rays.origin(i), rays.direction(i)};
-        },
-        [&](size_t j, const Hit& hit) {
-          const size_t i = index(j);
-          hits.t[i] = hit.t;
-          hits.primitive[i] = hit.primitive;
-        });
-  };
+  const RayLanes all{rays.ox.data(), rays.oy.data(), rays.oz.data(),
+                     rays.dx.data(), rays.dy.data(), rays.dz.data()};
+  const HitLanes to{hits.t.data(), hits.primitive.data(), nullptr, nullptr};
   parallel_blocks(count, kBlock, [&](size_t begin, size_t end) {
     if (which.empty())
-      trace_listed(begin, end, [](size_t j) { return j; });
+      embree::trace_rays(impl_->rtc, mode, begin, end, embree::Neighbours{all, to});
     else
-      trace_listed(begin, end, [&](size_t j) { return which[j]; });
+      embree::trace_rays(impl_->rtc, mode, begin, end, embree::Listed{rays, which, hits});
   });
 }
 
@@ -179,8 +161,9 @@ void Tracer::intersect_packet16(const vec3& origin, const vec3* directions, int 
   alignas(64) int valid[16];
   for (int lane = 0; lane < 16; ++lane) {
     valid[lane] = lane < count ? -1 : 0;
-    embree::set_lane(packet, lane, origin, directions[lane < count ? lane : 0], t_far);
+    embree::set_lane(packet, lane, {origin, directions[lane < count ? lane : 0]});
   }
+  embree::clear_hits<16>(packet, t_far);
   embree::query(valid, impl_->rtc, q, packet);
   for (int lane = 0; lane < count; ++lane) hits[lane] = embree::lane_hit(packet, lane);
 }

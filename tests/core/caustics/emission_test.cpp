@@ -394,8 +394,8 @@ TEST(Emission, ManyPathsAtOnceAreTheSamePathsBitByBitOnEveryInstructionSet) {
           if (!(mean > 0.0)) continue;
           ASSERT_LT(at, front->count);
           const Path path = front->path(at);
-          ASSERT_EQ(front->origins[at], vec3(s.origin)) << target;
-          ASSERT_EQ(front->directions[at], vec3(s.direction)) << target;
+          ASSERT_EQ(front->rays.origin(at), vec3(s.origin)) << target;
+          ASSERT_EQ(front->rays.direction(at), vec3(s.direction)) << target;
           ASSERT_EQ(path.weight, s.flux) << target;
           ASSERT_EQ(path.initial, mean);
           ASSERT_EQ(path.length, 0.0);

@@ -73,7 +73,7 @@ std::vector<unsigned char> bytes_of(const Fields&... fields) {
 
 void note_next(const PathFront& front, Outcome& out) {
   for (size_t i = 0; i < front.count; ++i)
-    out.next.push_back(bytes_of(front.origins[i], front.directions[i], front.red[i], front.green[i],
+    out.next.push_back(bytes_of(front.rays.origin(i), front.rays.direction(i), front.red[i], front.green[i],
                                 front.blue[i], front.initial[i], front.length[i], front.number[i],
                                 front.tag[i]));
 }
@@ -109,9 +109,7 @@ class PathWalkLanes : public testing::Test {
       const dvec3 from(16.0 * r(10) - 8.0, 16.0 * r(11) - 8.0, 16.0 * r(12) - 8.0);
       front_->push(from, glm::normalize(dvec3(r(13), r(14), r(15)) - 0.5), path);
     }
-    tracer_.intersect_batch(std::span(front_->origins).first(front_->count),
-                            std::span(front_->directions).first(front_->count),
-                            std::span(front_->hits).first(front_->count), TraceMode::single);
+    tracer_.intersect_batch(front_->rays.lanes(), front_->count, front_->hits.lanes(), TraceMode::single);
   }
 
   Outcome in_lanes(std::vector<bool>* left_out = nullptr) const {
@@ -138,15 +136,15 @@ class PathWalkLanes : public testing::Test {
     Outcome out;
     PathWalk walk(tracer_, optics_, options_, out.counts);
     for (size_t i = 0; i < front_->count; ++i) {
-      const Hit& hit = front_->hits[i];
+      const Hit hit = front_->hits[i];
       Path path = front_->path(i);
       if (left_out[i]) continue;
       if (!hit.valid()) {
         out.counts.ledger.escaped += optics::mean(path.weight);
         continue;
       }
-      dvec3 direction(front_->directions[i]);
-      dvec3 origin = dvec3(front_->origins[i]) + static_cast<double>(hit.t) * direction;
+      dvec3 direction(front_->rays.direction(i));
+      dvec3 origin = dvec3(front_->rays.origin(i)) + static_cast<double>(hit.t) * direction;
       walk.travel(static_cast<double>(hit.t), path);
       const SurfacePoint point = optics_.surfaces.point(hit.primitive, hit.u, hit.v, origin);
       const bool goes_on = walk.meet(point, origin, direction, path, *arrivals);

@@ -2,6 +2,8 @@
 
 #include "tests/core/test_scenes.h"
 
+#include <memory>
+
 #include <gtest/gtest.h>
 
 namespace hybray {
@@ -79,16 +81,17 @@ TEST_P(TracerModes, GiveABatchTheHitsThatItsRaysHaveOneByOne) {
   const Scene scene = test::triangle_soup(300, 0.4f, 1.0f, kSeed);
   const Tracer tracer(scene, {.robust = true});
   for (const size_t n : {0u, 1u, 3u, 4u, 15u, 16u, 17u, 1000u, 1003u}) {
-    const RayStream rays = random_rays(n, 1.2f);
-    std::vector<vec3> origins, directions;
-    for (size_t i = 0; i < n; ++i) origins.push_back(rays.origin(i)), directions.push_back(rays.direction(i));
-    std::vector<Hit> hits(n + 1);
-    hits[n].t = -5.0f;
-    tracer.intersect_batch(origins, directions, std::span(hits).first(n), GetParam());
-    EXPECT_EQ(hits[n].t, -5.0f) << "written past the end";
+    const RayStream stream = random_rays(n, 1.2f);
+    const auto rays = std::make_unique<RayBatch<1003>>();
+    for (size_t i = 0; i < n; ++i) rays->set(i, stream.origin(i), stream.direction(i));
+    const auto batch = std::make_unique<HitBatch<1004>>();
+    const HitBatch<1004>& hits = *batch;
+    batch->t[n] = -5.0f;
+    tracer.intersect_batch(rays->lanes(), n, batch->lanes(), GetParam());
+    EXPECT_EQ(hits.t[n], -5.0f) << "written past the end";
     int different = 0;
     for (size_t i = 0; i < n; ++i) {
-      const Hit alone = tracer.intersect(origins[i], directions[i]);
+      const Hit alone = tracer.intersect(stream.origin(i), stream.direction(i));
       if (hits[i].primitive != alone.primitive) {
         ++different;
         continue;

@@ -5,6 +5,7 @@
 #include "tests/core/test_scenes.h"
 
 #include <array>
+#include <memory>
 #include <optional>
 
 #include <gtest/gtest.h>
@@ -74,17 +75,22 @@ void random_ray(uint64_t i, vec3& origin, vec3& direction) {
 TEST(UserGeometry, AllModesFindTheHitsOfTheClosedForms) {
   const Scene scene = surfaces();
   constexpr size_t kRays = 20011;
-  std::vector<vec3> origins(kRays), directions(kRays);
-  for (size_t i = 0; i < kRays; ++i) random_ray(i, origins[i], directions[i]);
+  const auto rays = std::make_unique<RayBatch<kRays>>();
+  for (size_t i = 0; i < kRays; ++i) {
+    vec3 origin, direction;
+    random_ray(i, origin, direction);
+    rays->set(i, origin, direction);
+  }
   for (const bool robust : {false, true}) {
     const Tracer tracer(scene, {.robust = robust});
     for (const TraceMode mode : kAllTraceModes) {
-      std::vector<Hit> hits(kRays);
-      tracer.intersect_batch(origins, directions, hits, mode);
+      const auto batch = std::make_unique<HitBatch<kRays>>();
+      const HitBatch<kRays>& hits = *batch;
+      tracer.intersect_batch(rays->lanes(), kRays, batch->lanes(), mode);
       std::array<int, 5> met{};
       int undecided = 0;
       for (size_t i = 0; i < kRays; ++i) {
-        const auto truth = closed_forms(scene, dvec3(origins[i]), dvec3(directions[i]));
+        const auto truth = closed_forms(scene, dvec3(rays->origin(i)), dvec3(rays->direction(i)));
         const auto best = std::min_element(truth.begin(), truth.end());
         const uint32_t primitive = *best < kNone ? static_cast<uint32_t>(best - truth.begin()) : kNoPrimitive;
         if (hits[i].primitive != primitive) {
