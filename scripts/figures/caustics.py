@@ -123,7 +123,7 @@ def draw_rays(results: Results, folder: Path, name: str) -> list[Path]:
         axis.set(xscale="log", xlabel="light paths per active texel of the maps")
         plain_ticks(axis.xaxis, ticks)
         paper_mark(axis, paper["rays_per_texel_enough"], "paper: enough")
-        paper_mark(axis, paper["rays_per_texel_enough_filtered"], "paper: enough\nwith a filter", "right")
+        paper_mark(axis, paper["rays_per_texel_enough_filtered"], "paper:\nenough with\na filter", "right")
         axis.margins(y=0.16)
     slope_guide(axes[0], ticks)
     for axis in axes:
