@@ -1,5 +1,6 @@
 // Pyramid, marcher, compaction, and every mode of the general tracer, on the same rays.
 #include "bench/bench_view.h"
+#include "core/ssrm/march_lanes.h"
 
 #include <benchmark/benchmark.h>
 
@@ -38,6 +39,10 @@ void march(State& state, BenchView& v) {
   state.counters["steps_per_ray"] =
       static_cast<double>(v.buffers.results.steps) / static_cast<double>(v.rays.size());
 }
+void march_lanes(State& state, BenchView& v) {
+  measure(state, v.rays.size(),
+          [&] { ssrm::march_paper_lanes(v.depth(), v.screen_rays, v.rays.pixel, {}, v.buffers.results); });
+}
 void compaction(State& state, BenchView& v) {
   measure(state, v.rays.size(), [&] { ssrm::compact_unresolved(v.buffers.results, v.buffers.unresolved); });
 }
@@ -64,6 +69,7 @@ void register_ssrm() {
     register_kernel("DepthPyramid", scene, pyramid);
     register_kernel("ProjectRays", scene, projection);
     register_kernel("MarchPaper", scene, march);
+    register_kernel("MarchPaperLanes", scene, march_lanes);
     register_kernel("Compaction", scene, compaction);
     register_mode<TraceMode::single>(scene);
     register_mode<TraceMode::packet4>(scene);

@@ -38,6 +38,10 @@ class DepthPyramid {
     const Level& l = levels_[level];
     return texels_[l.first + static_cast<size_t>(y) * static_cast<size_t>(l.width) + static_cast<size_t>(x)];
   }
+  // All texels, level after level, each row by row: at(level, x, y) is texels()[first_texel(level) + y *
+  // width(level) + x].
+  const float* texels() const { return texels_.data(); }
+  size_t first_texel(int level) const { return levels_[level].first; }
   size_t memory_bytes() const { return texels_.size() * sizeof(float); }
 
  private:

@@ -1,7 +1,7 @@
 // Walking a ray through the cells of one pyramid level, pixel borders only. Everything that decides a cell is
-// one subtraction and one true division of the same operands at every level, so that a coarse walk crosses
-// exactly the borders that the level-0 walk crosses, bit for bit; no epsilon is added anywhere, and only the
-// crossed axis advances (both, where the ray meets a corner).
+// one subtraction and one product of the same operands at every level, so that a coarse walk crosses exactly
+// the borders that the level-0 walk crosses, bit for bit; no epsilon is added anywhere, and only the crossed
+// axis advances (both, where the ray meets a corner).
 #pragma once
 
 #include "core/ssrm/screen_rays.h"
@@ -13,13 +13,16 @@ namespace hybray::ssrm {
 // One screen axis of a ray. Border b lies between pixels b - 1 and b.
 template <class Real>
 struct Axis {
-  Real origin, direction;
-  int size;  // pixels of the screen along this axis
+  Real origin, inverse;  // 1 / direction
+  int size;              // pixels of the screen along this axis
+
+  Axis(Real ray_origin, Real direction, int pixels)
+      : origin(ray_origin), inverse(Real(1) / direction), size(pixels) {}
 
   // Branches on the direction are kept on purpose: they predict well along a ray, while selecting by
-  // arithmetic made the walk wait for each division.
-  bool forward() const { return direction > Real(0); }
-  Real crossing(int border) const { return (static_cast<Real>(border) - origin) / direction; }
+  // arithmetic made the walk wait.
+  bool forward() const { return inverse > Real(0); }
+  Real crossing(int border) const { return (static_cast<Real>(border) - origin) * inverse; }
 
   // Border through which the ray leaves the level's cell that holds `pixel`; never beyond the screen's edge.
   int exit_border(int pixel, int level) const {
@@ -28,28 +31,17 @@ struct Axis {
   int entry_border(int pixel) const { return forward() ? pixel : pixel + 1; }
   int pixel_after(int border) const { return forward() ? border : border - 1; }
 
-  // The pixel at parameter l, given that the ray is in `from` at some earlier parameter and does not leave
-  // the screen before l: every border crossed at or before l has been passed. Starts from a rounded guess and
-  // settles it by the same comparisons that a pixel-by-pixel walk makes.
-  int pixel_at(int from, Real l) const {
-    const Real guess = origin + l * direction;
-    if (forward()) {
-      int i =
-          static_cast<int>(std::min(std::max(static_cast<Real>(from), guess), static_cast<Real>(size - 1)));
-      while (i < size - 1 && crossing(i + 1) <= l) ++i;
-      while (i > from && crossing(i) > l) --i;
-      return i;
-    }
-    int i = static_cast<int>(std::min(std::max(Real(0), guess), static_cast<Real>(from)));
-    while (i > 0 && crossing(i) <= l) --i;
-    while (i < from && crossing(i + 1) > l) ++i;
-    return i;
+  // The ray, in the level's cell that holds `pixel` at parameter l, in terms of the level below: a pixel of
+  // the half that it is in. Decided by the same comparison that a pixel-by-pixel walk makes.
+  int descend(int pixel, int level, Real l) const {
+    const int middle = ((pixel >> level) << level) + (1 << (level - 1));
+    return crossing(middle) <= l ? std::min(pixel_after(middle), size - 1) : pixel;
   }
 };
 
 // A ray inside the screen, from parameter `l` on. On an axis whose border it has not crossed, a coarse walk
-// leaves the pixel where it was: still in the same cell, which is all that this level asks. `settle` finds
-// the exact pixel; it is due before a finer level, and level 0 never needs it.
+// leaves the pixel where it was: still in the same cell, which is all that this level asks. `descend` is due
+// before a finer level; at level 0 the pixel is exact.
 template <class Real>
 struct CellWalk {
   Axis<Real> x, y;
@@ -84,9 +76,10 @@ struct CellWalk {
     return inside;
   }
 
-  void settle() {
-    px = x.pixel_at(px, l);
-    py = y.pixel_at(py, l);
+  // From `level` >= 1 to the one below.
+  void descend(int level) {
+    px = x.descend(px, level, l);
+    py = y.descend(py, level, l);
   }
 
   // The pixel that the ray was in just before parameter l, where it entered (px, py).

@@ -3,13 +3,12 @@
 #include "core/base/check.h"
 #include "core/base/parallel.h"
 #include "core/ssrm/cell_walk.h"
+#include "core/ssrm/march_lanes.h"
 
 #include <atomic>
 
 namespace hybray::ssrm {
 namespace {
-
-constexpr int kSamplesPerIteration = 4;  // the paper's balance of arithmetic against memory
 
 ScreenRay<double> promoted(const ScreenRay<float>& r) {
   return {r.ox, r.oy, r.oz, r.dx, r.dy, r.dz, r.l_end, r.end};
@@ -50,8 +49,7 @@ Correction march_paper_ray(const DepthView& view, const ScreenRay<float>& ray, u
     if (!intersects) {
       level = std::min(level + 1, top);
     } else if (level > 0) {
-      --level;
-      walk.settle();
+      walk.descend(level--);
     } else {
       break;
     }
@@ -65,6 +63,7 @@ void march_paper(const DepthView& view, const ScreenRays& rays, const std::vecto
                  const MarchOptions& options, MarchResults& results) {
   HYBRAY_CHECK_EQ(rays.size(), pixels.size());
   HYBRAY_CHECK_EQ(rays.size(), results.size());
+  if (options.code == MarchCode::lanes) return march_paper_lanes(view, rays, pixels, options, results);
   std::atomic<uint64_t> steps{0};
   parallel_blocks(rays.size(), 1024, [&](size_t begin, size_t end) {
     uint64_t mine = 0;

@@ -1,5 +1,5 @@
-// The SSRM paper's marcher: strict, hierarchical, no heuristics. Scalar; the reference that faster versions
-// are held against.
+// The SSRM paper's marcher: strict, hierarchical, no heuristics. As scalar code, the reference that faster
+// versions are held against, or in vector lanes (march_lanes.h), which give the same results.
 #pragma once
 
 #include "core/base/ray_stream.h"
@@ -7,8 +7,14 @@
 
 namespace hybray::ssrm {
 
+// Depth samples in one iteration, between changes of level: the paper's balance of arithmetic against memory.
+inline constexpr int kSamplesPerIteration = 4;
+
+enum class MarchCode : uint8_t { scalar, lanes };
+
 struct MarchOptions {
   uint64_t step_budget = 0;  // depth samples a ray may read; 0 = as many as it needs (it always ends)
+  MarchCode code = MarchCode::scalar;
 };
 
 // The paper's three stages for every ray, all threads. `pixels` holds each ray's own pixel

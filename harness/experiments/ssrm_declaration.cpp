@@ -40,6 +40,8 @@ std::vector<Parameter> parameters() {
              "Depth derivatives from the triangle's plane, or by differences inside 2x2 quads as graphics "
              "hardware makes them."),
       choice("marcher", "paper", {"paper"}, "Screen-space marcher."),
+      choice("march_code", "scalar", {"scalar", "lanes"},
+             "Marcher as scalar code, or many rays at a time in vector lanes: the same results, less time."),
       integer("mirror_depth", "", 1, 1, 1, "Number of mirror reflections along a path."),
       integer("step_budget", "", 0, 0, 1e9, "Depth samples that one ray may read; 0: no limit."),
       number("footprint_factor", "", 1.0, 1e-3, 1e3, "k of the tolerance that makes a HIT right."),
@@ -61,6 +63,7 @@ std::vector<Column> columns() {
       key("width", "width of the main view", "px"),
       key("height", "height of the main view", "px"),
       key("marcher", "screen-space marcher"),
+      key("march_code", "scalar code or vector lanes"),
       key("near_m", "near plane", "m"),
       {"far_m", "m", ColumnKind::key, none, "far plane in use", Comparison::value, {0.0, 1e-12}},
       key("depth_convention", "depth convention"),

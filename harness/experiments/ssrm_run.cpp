@@ -58,7 +58,8 @@ Setup make_setup(const Point& point, Workspace& workspace) {
           View(find_camera(scene, point.text("camera")), view, scene.bounds),
           bits,
           difference,
-          {static_cast<uint64_t>(point.integer("step_budget"))}};
+          {static_cast<uint64_t>(point.integer("step_budget")),
+           point.text("march_code") == "lanes" ? ssrm::MarchCode::lanes : ssrm::MarchCode::scalar}};
 }
 
 void add_verdicts(Row& row, const metrics::VerdictTable& t) {
@@ -177,7 +178,7 @@ void add_times(Row& row, const Setup& setup, const Tracer& tracer, const GBuffer
 }
 
 void add_keys(Row& row, const Point& point, const Setup& setup, const GBuffer& gbuffer) {
-  for (const char* name : {"scene", "camera", "marcher", "depth_convention", "derivatives"})
+  for (const char* name : {"scene", "camera", "marcher", "march_code", "depth_convention", "derivatives"})
     row[name] = point.text(name);
   row["width"] = int64_t{setup.view.width()};
   row["height"] = int64_t{setup.view.height()};

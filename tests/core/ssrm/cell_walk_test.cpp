@@ -92,7 +92,7 @@ TEST(CellWalk, ACoarseWalkEntersExactlyThePixelsThatTheFineWalkIsInThere) {
       CellWalk<float> coarse(ray, kWidth, kHeight, x, y);
       size_t at = 0;
       do {
-        coarse.settle();
+        for (int l = level; l > 0; --l) coarse.descend(l);
         const State here{coarse.px, coarse.py, coarse.l};
         while (at < fine.size() && !(fine[at] == here)) ++at;
         ASSERT_LT(at, fine.size()) << "seed " << kSeed << " ray " << i << " level " << level;

@@ -1,5 +1,7 @@
 #include "core/ssrm/march_paper.h"
 
+#include "core/ssrm/march_lanes.h"
+
 #include "core/truth/march_level0.h"
 #include "tests/core/ssrm/main_view.h"
 #include "tests/core/test_scenes.h"
@@ -132,6 +134,12 @@ TEST_P(MarchPaperScenes, AgreesWithTheExhaustiveMarcher) {
           << scene.cameras[c].name << " " << size.width << "x" << size.height;
       ASSERT_EQ(marched.pixel, same.pixel)
           << scene.cameras[c].name << " " << size.width << "x" << size.height;
+      MarchResults lanes;
+      lanes.resize(v.rays.size());
+      march_paper_lanes(v.depth(), v.screen_rays, v.rays.pixel, {}, lanes);
+      ASSERT_EQ(lanes.verdict, marched.verdict);
+      ASSERT_EQ(lanes.pixel, marched.pixel);
+      ASSERT_EQ(lanes.steps, marched.steps);
       if (v.rays.size() > 5000) {
         EXPECT_LT(marched.steps, same.steps / 2) << "the hierarchy must save steps";
       }

@@ -151,6 +151,17 @@ TEST_F(SsrmTest, ThePicturesOfVerdictsAndOfTheMainViewAreBlackWhereNoRayWasMade)
   EXPECT_GT(integer(row, "rays"), 0);
 }
 
+TEST_F(SsrmTest, VectorLanesGiveTheRowOfTheScalarMarch) {
+  for (const int64_t budget : {0, 5}) {
+    Row scalar = run({{"scene", std::string("atrium")}, {"step_budget", budget}});
+    const Row lanes = run(
+        {{"scene", std::string("atrium")}, {"step_budget", budget}, {"march_code", std::string("lanes")}});
+    EXPECT_EQ(std::get<std::string>(scalar.at("march_code")), "scalar");
+    scalar["march_code"] = std::string("lanes");
+    EXPECT_EQ(lanes, scalar);
+  }
+}
+
 TEST_F(SsrmTest, ABudgetMovesRaysToUnknownBudget) {
   const Row row = run({{"step_budget", int64_t{5}}});
   EXPECT_GT(number(row, "unknown_budget_fraction"), 0.05);
