@@ -7,6 +7,7 @@ from collections import defaultdict
 from pathlib import Path
 
 from csv_table import Row, Table, number, read_table, whole
+from grouping import groups_of
 from inputs import InputError
 from text_table import TextTable
 
@@ -34,14 +35,23 @@ def shown(value: float | None, digits: int) -> str:
     return "" if value is None else f"{value:.{digits}f}"
 
 
+def scene_of(label: str) -> str:
+    return label.split(",")[0]
+
+
 class Measured:
-    """The rows of one run, averaged over cameras for each scene and resolution."""
+    """The rows of one run, averaged over cameras for each scene and resolution, and for each value of what else the run swept:
+    "sponza, lanes"."""
 
     def __init__(self, table: Table):
         self.cells: dict[tuple[str, int, int], list[Row]] = defaultdict(list)
-        for row in table.rows:
-            self.cells[row["scene"], whole(row, "width"), whole(row, "height")].append(row)
-        self.scenes = list(dict.fromkeys(scene for scene, _, _ in self.cells))
+        for setting, rows in groups_of(table.rows, ("scene", "camera", "width", "height")).items():
+            for row in rows:
+                label = ", ".join([row["scene"], *(value for _, value in setting)])
+                self.cells[label, whole(row, "width"), whole(row, "height")].append(row)
+        order = list(dict.fromkeys(row["scene"] for row in table.rows))
+        self.scenes = sorted(dict.fromkeys(label for label, _, _ in self.cells), key=lambda label: order.index(scene_of(label)))
+        self.scene_count = len(order)
         self.sizes = sorted({(w, h) for _, w, h in self.cells}, key=lambda s: s[0] * s[1])
         self.heads = [f"{w}x{h}" for w, h in self.sizes]
         self.cameras = len({(row["scene"], row["camera"]) for row in table.rows})
@@ -66,7 +76,7 @@ class Paper:
 
     @staticmethod
     def line(table: dict, scene: str, sizes: list[Size]) -> list[str]:
-        return [table.get((COUNTERPART.get(scene, ""), w, h), "") for w, h in sizes]
+        return [table.get((COUNTERPART.get(scene_of(scene), ""), w, h), "") for w, h in sizes]
 
 
 def table1(m: Measured, paper: Paper) -> TextTable:
@@ -80,7 +90,7 @@ def paired(title: str, label: str, m: Measured, rows: list[tuple[str, str, int]]
     lines = []
     for scene in m.scenes:
         lines += [[f"{scene}: {text}", *m.line(scene, column, digits)] for text, column, digits in rows]
-        lines.append([f"  paper, {COUNTERPART.get(scene, '-')} (GPU)", *paper.line(table, scene, m.sizes)])
+        lines.append([f"  paper, {COUNTERPART.get(scene_of(scene), '-')} (GPU)", *paper.line(table, scene, m.sizes)])
     return TextTable(title, ["scene", *m.heads], lines, label)
 
 
@@ -100,7 +110,7 @@ def text_tables(m: Measured) -> list[TextTable]:
 
 
 def preface(table: Table, m: Measured) -> str:
-    return (f"{len(table.rows)} points, {m.cameras} cameras of {len(m.scenes)} scenes, {table.rows[0]['threads']} threads; "
+    return (f"{len(table.rows)} points, {m.cameras} cameras of {m.scene_count} scenes, {table.rows[0]['threads']} threads; "
             "means over cameras. Speedups compare within one row; times of other machines do not compare.\n")
 
 

@@ -41,6 +41,19 @@ class Tables(unittest.TestCase):
         self.assertEqual(self.line(output, "Table 3. Speedup", "  paper, Sphere"), ["paper, Sphere (GPU)", "1.083", "1.025"])
         self.assertEqual(self.line(output, "mean alpha 0.31", "sphere 1280x720")[1:3], ["0.375", "0.500"])
 
+    def test_settings_that_a_run_swept_are_never_averaged_together(self):
+        path = write(self.root, "ssrm_derivatives", [
+            changed(SSRM, scene=scene, camera=camera, derivatives=d, t_ss_ms=t)
+            for scene, camera, d, t in (("sphere", "front", "plane", 4), ("sphere", "front", "difference", 40),
+                                        ("street", "front", "plane", 6), ("sphere", "side", "plane", 5),
+                                        ("sphere", "side", "difference", 50))])
+        output = run("tables.py", path).stdout
+        self.assertIn("5 points, 3 cameras of 2 scenes", output)
+        block = output[output.index("Table 1."):].split("\n\n")[0].splitlines()
+        self.assertEqual([re.split(r"\s{2,}", line) for line in block[3:6]],
+                         [["sphere, plane", "4.500"], ["sphere, difference", "45.000"], ["street, plane", "6.000"]])
+        self.assertEqual(self.line(output, "Table 2. General tracer", "  paper, Bistro"), ["paper, Bistro (GPU)", "7.65"])
+
     def test_prints_the_same_cells_as_latex(self):
         output = run("tables.py", "--latex", self.table()).stdout
         self.assertIn(r"\caption{SSRM time, ms}", output)

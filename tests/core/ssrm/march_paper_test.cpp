@@ -1,7 +1,6 @@
 #include "core/ssrm/march_paper.h"
 
 #include "core/ssrm/march_lanes.h"
-
 #include "core/truth/march_level0.h"
 #include "tests/core/ssrm/main_view.h"
 #include "tests/core/test_scenes.h"
