@@ -55,11 +55,9 @@ struct MarchMemory {
   EndedRays ended;
 };
 
-// First texel and row length of each level.
-struct LevelTable {
-  static constexpr size_t kLevels = 32;
-  alignas(64) std::array<int32_t, kLevels> first, pitch;
-};
+// First texel of each level: as many as a vector of the widest machine holds.
+constexpr int kMostLevels = 16;
+using FirstTexels = std::array<int32_t, kMostLevels>;
 
 // How a lane's march ended.
 enum : int32_t { kUnderWay, kAtEnd, kOffscreen, kStopped, kOutOfBudget };
@@ -69,7 +67,7 @@ struct MarchJob {
   const ScreenRays& rays;
   const std::vector<uint32_t>& pixels;
   int32_t step_budget;  // 0: none
-  LevelTable levels;
+  alignas(64) FirstTexels first_texels;
 };
 
 }  // namespace hybray::ssrm
@@ -159,8 +157,22 @@ struct Packet {
         live(hn::FirstN(DF(), at < wave.count ? wave.count - at : 0)) {}
 };
 
-HWY_INLINE VI level_entry(const std::array<int32_t, LevelTable::kLevels>& table, VI level) {
-  return hn::GatherIndex(DI(), table.data(), level);
+// The table's entries of the lanes' levels, without a gather where they fit into one or two vectors.
+HWY_INLINE VI first_texel(const FirstTexels& table, VI level) {
+  const DI di;
+#if HWY_TARGET != HWY_SCALAR
+  constexpr size_t kLanes = hn::MaxLanes(DI());
+  const auto look_up = [&](size_t first, VI index) HWY_ATTR {
+    return hn::TableLookupLanes(hn::Load(di, table.data() + first), hn::IndicesFromVec(di, index));
+  };
+  if constexpr (kLanes == kMostLevels) return look_up(0, level);
+  if constexpr (2 * kLanes == kMostLevels) {
+    const VI lanes = hn::Set(di, static_cast<int32_t>(kLanes));
+    const VI index = hn::And(level, hn::Sub(lanes, hn::Set(di, 1)));
+    return hn::IfThenElse(hn::Lt(level, lanes), look_up(0, index), look_up(kLanes, index));
+  }
+#endif
+  return hn::GatherIndex(di, table.data(), level);
 }
 
 // One depth sample of each live lane: march_paper_ray's loop body. Returns how many there were.
@@ -168,7 +180,6 @@ template <bool kBudget>
 HWY_INLINE size_t step(Packet& p, const MarchJob& job, const float* texels, VI top) {
   const DF df;
   const DI di;
-  const LevelTable& levels = job.levels;
   const VI one = hn::Set(di, 1);
   if constexpr (kBudget) {
     const MI spent = hn::And(as_int(p.live), hn::Eq(p.taken, hn::Set(di, job.step_budget)));
@@ -182,8 +193,8 @@ HWY_INLINE size_t step(Packet& p, const MarchJob& job, const float* texels, VI t
   const VF exit = hn::Min(lx, ly);
   const VF leave = hn::Min(p.l_end, exit);
   const VF farthest = hn::Max(hn::Mul(p.l, p.dz), hn::Mul(leave, p.dz));
-  const VI texel = hn::Add(hn::Add(level_entry(levels.first, p.level), cell_x),
-                           hn::Mul(cell_y, level_entry(levels.pitch, p.level)));
+  const VI row = hn::Add(hn::Shr(hn::Set(di, job.view.width() - 1), p.level), one);  // length, in texels
+  const VI texel = hn::Add(hn::Add(first_texel(job.first_texels, p.level), cell_x), hn::Mul(cell_y, row));
   const VF depth = hn::GatherIndex(df, texels, hn::IfThenElseZero(as_int(p.live), texel));
   const M behind = hn::Gt(farthest, hn::Sub(depth, p.oz));
   const M ends = hn::Le(p.l_end, exit);
@@ -469,10 +480,9 @@ void march_paper_lanes(const DepthView& view, const ScreenRays& rays, const std:
                pixels,
                options.step_budget < kUnlimited ? static_cast<int32_t>(options.step_budget) : 0,
                {}};
-  for (int level = 0; level < view.pyramid.levels(); ++level) {
-    job.levels.first[level] = static_cast<int32_t>(view.pyramid.first_texel(level));
-    job.levels.pitch[level] = view.pyramid.width(level);
-  }
+  HYBRAY_CHECK_LE(view.pyramid.levels(), kMostLevels);
+  for (int level = 0; level < view.pyramid.levels(); ++level)
+    job.first_texels[static_cast<size_t>(level)] = static_cast<int32_t>(view.pyramid.first_texel(level));
   std::atomic<uint64_t> steps{0};
   tbb::enumerable_thread_specific<std::unique_ptr<MarchMemory>> memories(std::make_unique<MarchMemory>);
   parallel_blocks(rays.size(), MarchWave::kSize, [&](size_t begin, size_t end) {
