@@ -115,6 +115,7 @@ TEST_F(PlanTest, RefusesASuiteInASuite) {
 
 TEST(CheckedInConfigs, AreGoodAndTheSuiteOfAllHasEveryTableAndFigure) {
   const std::filesystem::path folder = HYBRAY_PROJECT_DIR "/configs";
+  const std::set<std::string> beyond_the_papers{"ssrm_speed"};
   std::set<std::string> reproductions, listed;
   for (const auto& file : std::filesystem::directory_iterator(folder)) {
     if (file.path().extension() != ".json") continue;
@@ -127,7 +128,8 @@ TEST(CheckedInConfigs, AreGoodAndTheSuiteOfAllHasEveryTableAndFigure) {
       continue;
     }
     const Config config = load_config(file.path(), experiments());
-    if (!config.name.ends_with("quickstart")) reproductions.insert(config.name);
+    if (!config.name.ends_with("quickstart") && !beyond_the_papers.contains(config.name))
+      reproductions.insert(config.name);
   }
   EXPECT_EQ(listed, reproductions);
 }
