@@ -213,7 +213,8 @@ std::vector<Column> columns() {
   add_ratio(c, "main_view_ratio", "(main view + caustic pass) / main view", lower);
   c.push_back({"rays_per_second", "1/s", ColumnKind::time, higher, "rays of light paths / emit_trace_ms"});
   c.push_back({"efficiency", "1/s", ColumnKind::time, higher, "1 / (relmse * total seconds)"});
-  add_circumstances(c);
+  add_threads(c);
+  add_repeats(c);
   return c;
 }
 

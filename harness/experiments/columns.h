@@ -3,6 +3,8 @@
 
 #include "harness/experiments/experiment.h"
 
+#include <initializer_list>
+
 namespace hybray::column {
 
 inline Column key(const char* name, const char* text, const char* unit = "") {
@@ -19,9 +21,15 @@ inline Column counted(const char* name, const char* text, const char* unit = "")
   return {name, unit, ColumnKind::count, Better::none, text};
 }
 
+inline void add(std::vector<Column>& columns, std::initializer_list<Column> more) {
+  columns.insert(columns.end(), more);
+}
+
 // `threads` and `repeats`, as the command line and the config set them.
-inline void add_circumstances(std::vector<Column>& columns) {
+inline void add_threads(std::vector<Column>& columns) {
   columns.push_back({"threads", "", ColumnKind::count, Better::none, "threads in use", Comparison::none});
+}
+inline void add_repeats(std::vector<Column>& columns) {
   columns.push_back({"repeats", "", ColumnKind::count, Better::none, "timed rounds", Comparison::none});
 }
 

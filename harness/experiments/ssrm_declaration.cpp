@@ -3,110 +3,65 @@
 #include "harness/experiments/parameters.h"
 #include "harness/experiments/resolution.h"
 #include "harness/experiments/ssrm.h"
+#include "harness/experiments/ssrm_frame.h"
 
 #include <cmath>
-#include <utility>
 
 namespace hybray {
 namespace ssrm_parts {
-namespace {
-
-// Rays within rounding of an edge change sides with the general tracer's instruction set: at most 20 in
-// 100,000.
-constexpr double kMovedRays = 2e-4;
-
-Column share_of_rays(const char* name, Better better, const char* text) {
-  return {name, "1", ColumnKind::metric, better, text, {}, {kMovedRays, 0.0}};
-}
-
-// What follows from how many rays there are or which of them are resolved.
-Column follows_rays(const Column& column) {
-  return column::within({2.0, kMovedRays}, column);
-}
-
-}  // namespace
-
 std::vector<Parameter> parameters() {
   using namespace parameter;
-  return {
-      scene(),
-      camera(),
-      resolution("1920x1080"),
-      near_plane(0.1),
-      number("far", "m", 0.0, 0.0, 1e12, "Distance of the far plane; 0: just beyond the scene."),
-      choice("depth_convention", "reversed", {"standard", "reversed"},
-             "Device depth that grows with distance (standard) or falls (reversed)."),
-      choice("derivatives", "plane", {"plane", "difference"},
-             "Depth derivatives from the triangle's plane, or by differences inside 2x2 quads as graphics "
-             "hardware makes them."),
-      choice("marcher", "paper", {"paper"}, "Screen-space marcher."),
-      choice("march_code", "scalar", {"scalar", "lanes"},
-             "Marcher as scalar code, or many rays at a time in vector lanes: the same results, less time."),
-      integer("mirror_depth", "", 1, 1, 1, "Number of mirror reflections along a path."),
-      integer("step_budget", "", 0, 0, 1e9, "Depth samples that one ray may read; 0: no limit."),
-      number("footprint_factor", "", 1.0, 1e-3, 1e3, "k of the tolerance that makes a HIT right."),
-      integer("level0_every", "", 1, 0, 1e6,
-              "March every so-manieth ray also with the exhaustive double-precision marcher; 0: none."),
-      repeats(),
-      flag("picture", false,
-           "Write the verdict picture: grey = resolved, blue = unknown, light blue = miss, red = false hit, "
-           "black = background."),
-  };
+  std::vector<Parameter> p = ssrm_view_parameters();
+  p.insert(
+      p.end(),
+      {
+          choice("marcher", "paper", {"paper"}, "Screen-space marcher."),
+          choice(
+              "march_code", "scalar", {"scalar", "lanes"},
+              "Marcher as scalar code, or many rays at a time in vector lanes: the same results, less time."),
+          integer("mirror_depth", "", 1, 1, 1, "Number of mirror reflections along a path."),
+          integer("step_budget", "", 0, 0, 1e9, "Depth samples that one ray may read; 0: no limit."),
+          number("footprint_factor", "", 1.0, 1e-3, 1e3, "k of the tolerance that makes a HIT right."),
+          integer("level0_every", "", 1, 0, 1e6,
+                  "March every so-manieth ray also with the exhaustive double-precision marcher; 0: none."),
+          repeats(),
+          flag("picture", false,
+               "Write the verdict picture: grey = resolved, blue = unknown, light blue = miss, red = false "
+               "hit, "
+               "black = background."),
+      });
+  return p;
 }
 
 std::vector<Column> columns() {
   using namespace column;
   using enum Better;
-  std::vector<Column> c{
-      key("scene", "scene"),
-      key("camera", "camera"),
-      key("width", "width of the main view", "px"),
-      key("height", "height of the main view", "px"),
-      key("marcher", "screen-space marcher"),
-      key("march_code", "scalar code or vector lanes"),
-      key("near_m", "near plane", "m"),
-      {"far_m", "m", ColumnKind::key, none, "far plane in use", Comparison::value, {0.0, 1e-12}},
-      key("depth_convention", "depth convention"),
-      key("derivatives", "origin of the depth derivatives"),
-      key("mirror_depth", "mirror reflections along a path"),
-      key("step_budget", "depth samples a ray may read; 0 = no limit"),
-      key("footprint_factor", "k of the tolerance"),
-      counted("triangles", "triangles of the scene"),
-      follows_rays(counted("rays", "reflection rays, one a covered pixel")),
-      share_of_rays("alpha", higher, "HIT / rays"),
-      share_of_rays("miss_fraction", none, "MISS / rays"),
-      share_of_rays("false_miss_fraction", lower, "share of MISS whose ray truly hits something"),
-      share_of_rays("resolved_fraction", higher, "rays not sent to the general tracer / rays"),
-      share_of_rays("unknown_offscreen_fraction", none,
-                    "rays that left the view volume at the side or the far plane / rays"),
-      share_of_rays("unknown_behind_fraction", none,
-                    "rays already behind the failing pixel's plane where they enter it / rays"),
-      share_of_rays("unknown_viewer_fraction", none, "rays that left through the near plane / rays"),
-      share_of_rays("unknown_correction_fraction", none, "rays that failed the correction otherwise / rays"),
-      share_of_rays("unknown_budget_fraction", none, "rays whose step budget was exhausted / rays"),
-      share_of_rays("precision", higher, "right HITs / HITs"),
-      share_of_rays("precision_loose", higher, "HITs within max(1 % of t*, 1.5 footprints) / HITs"),
-      share_of_rays("recall", higher, "right HITs / rays whose true hit the main view sees"),
-      share_of_rays("alpha_max", none, "rays whose true hit the main view sees / rays"),
-      share_of_rays("false_hit_fraction", lower, "false HITs / HITs; phantom + early + through"),
-      share_of_rays("phantom_fraction", lower, "HITs of rays that truly hit nothing / HITs"),
-      share_of_rays("early_fraction", lower, "HITs claimed before the true hit / HITs"),
-      share_of_rays("through_fraction", lower, "HITs claimed beyond the true hit / HITs"),
-      share_of_rays("level0_disagreement_fraction", lower,
-                    "rays labelled differently by the exhaustive double-precision marcher / rays compared"),
-      {"level0_margin_ulp", "ulp", ColumnKind::metric, lower,
-       "widest decision margin of a ray labelled differently, in float ulps", Comparison::none},
-      // Moved rays that read ten times the mean.
-      {"steps_per_ray",
-       "1",
-       ColumnKind::metric,
-       lower,
-       "depth samples read / rays",
-       {},
-       {0.0, 10 * kMovedRays}},
-      follows_rays(counted("geometric_mirror_rays",
-                           "rays mirrored about the geometric normal instead of the shading normal")),
-  };
+  std::vector<Column> c;
+  add_view_columns(c);
+  add(c, {
+             key("marcher", "screen-space marcher"),
+             key("march_code", "scalar code or vector lanes"),
+             key("mirror_depth", "mirror reflections along a path"),
+             key("step_budget", "depth samples a ray may read; 0 = no limit"),
+             key("footprint_factor", "k of the tolerance"),
+         });
+  add_verdict_columns(c);
+  add(c, {
+             share_of_rays("resolved_fraction", higher, "rays not sent to the general tracer / rays"),
+             share_of_rays(
+                 "level0_disagreement_fraction", lower,
+                 "rays labelled differently by the exhaustive double-precision marcher / rays compared"),
+             {"level0_margin_ulp", "ulp", ColumnKind::metric, lower,
+              "widest decision margin of a ray labelled differently, in float ulps", Comparison::none},
+             // Moved rays that read ten times the mean.
+             {"steps_per_ray",
+              "1",
+              ColumnKind::metric,
+              lower,
+              "depth samples read / rays",
+              {},
+              {0.0, 10 * kMovedRays}},
+         });
   add_time(c, "gbuffer", "depth, derivatives and normals of the main view");
   add_time(c, "pyramid", "depth pyramid");
   add_time(c, "raygen", "world-space reflection rays");
@@ -134,11 +89,9 @@ std::vector<Column> columns() {
             "cost of an unresolved ray relative to the mean ray; the paper assumes 1");
   c.push_back({"break_even_alpha", "1", ColumnKind::time, lower,
                "T_SS / T_HW: alpha from which the paper's formula gains"});
-  c.push_back(follows_rays(counted("paths_skipped", "background pixels, for which no ray was made")));
-  c.push_back(counted("buffers_skipped", "kinds of geometry buffer that this point did not need"));
   c.push_back(follows_rays(
       {"buffer_bytes", "bytes", ColumnKind::metric, lower, "geometry buffers, pyramid and ray lists"}));
-  add_circumstances(c);
+  add_repeats(c);
   return c;
 }
 

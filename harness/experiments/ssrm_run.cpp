@@ -1,21 +1,15 @@
 // One point of `ssrm`: buffers, rays, march, truth, verdicts, times.
-#include "core/base/parallel.h"
-#include "core/gbuffer/reflection_rays.h"
 #include "core/metrics/statistics.h"
-#include "core/metrics/verdict_table.h"
 #include "core/ssrm/hybrid.h"
 #include "core/truth/march_level0.h"
 #include "harness/experiments/cells.h"
-#include "harness/experiments/resolution.h"
 #include "harness/experiments/ssrm.h"
+#include "harness/experiments/ssrm_frame.h"
 #include "harness/experiments/ssrm_picture.h"
-#include "harness/experiments/workspace.h"
 #include "harness/timing/interleaved.h"
 #include "harness/timing/trace_mode_choice.h"
 
-#include <bit>
 #include <cmath>
-#include <memory>
 #include <numeric>
 
 namespace hybray::ssrm_parts {
@@ -23,65 +17,9 @@ namespace {
 
 using ssrm::Verdict;
 
-// Everything that the stages of one point share.
-struct Setup {
-  const Scene& scene;
-  const Tracer& robust;
-  View view;
-  unsigned bits;
-  bool difference;
-  ssrm::MarchOptions march;
-
-  GBuffer make_buffers() const {
-    GBuffer g = make_gbuffer(robust, view, bits);
-    if (difference) g.depth_derivatives = difference_derivatives(g.depth);
-    return g;
-  }
-};
-
-Setup make_setup(const Point& point, Workspace& workspace) {
-  const std::string& name = point.text("scene");
-  const Scene& scene = workspace.scene(name);
-  const Resolution size = *parse_resolution(point.text("resolution"));
-  const bool difference = point.text("derivatives") == "difference";
-  View::Settings view{.width = size.width,
-                      .height = size.height,
-                      .near = point.number("near"),
-                      .far = point.number("far"),
-                      .convention = point.text("depth_convention") == "standard" ? DepthConvention::standard
-                                                                                 : DepthConvention::reversed};
-  unsigned bits = kDepth | kShadingNormal | kPrimitive;
-  if (!difference) bits |= kDepthDerivatives;
-  if (point.boolean("picture")) bits |= kMaterial;
-  return {scene,
-          workspace.robust_tracer(name),
-          View(find_camera(scene, point.text("camera")), view, scene.bounds),
-          bits,
-          difference,
-          {static_cast<uint64_t>(point.integer("step_budget")),
-           point.text("march_code") == "lanes" ? ssrm::MarchCode::lanes : ssrm::MarchCode::scalar}};
-}
-
-void add_verdicts(Row& row, const metrics::VerdictTable& t) {
-  const auto of_rays = [&](Verdict v) { return share(t.count(v), t.rays); };
-  row["rays"] = static_cast<int64_t>(t.rays);
-  row["alpha"] = of_rays(Verdict::hit);
-  row["miss_fraction"] = of_rays(Verdict::miss);
-  row["false_miss_fraction"] = share(t.false_misses, t.count(Verdict::miss));
-  row["resolved_fraction"] = of_rays(Verdict::hit);  // marcher `paper` sends its MISS on
-  row["unknown_offscreen_fraction"] = of_rays(Verdict::offscreen);
-  row["unknown_behind_fraction"] = of_rays(Verdict::behind);
-  row["unknown_viewer_fraction"] = of_rays(Verdict::viewer);
-  row["unknown_correction_fraction"] = of_rays(Verdict::correction);
-  row["unknown_budget_fraction"] = of_rays(Verdict::budget);
-  row["precision"] = share(t.right, t.hits());
-  row["precision_loose"] = share(t.right_loose, t.hits());
-  row["recall"] = share(t.right, t.visible_true_hits);
-  row["alpha_max"] = share(t.visible_true_hits, t.rays);
-  row["false_hit_fraction"] = share(t.phantom + t.early + t.through, t.hits());
-  row["phantom_fraction"] = share(t.phantom, t.hits());
-  row["early_fraction"] = share(t.early, t.hits());
-  row["through_fraction"] = share(t.through, t.hits());
+ssrm::MarchOptions march_options(const Point& point) {
+  return {static_cast<uint64_t>(point.integer("step_budget")),
+          point.text("march_code") == "lanes" ? ssrm::MarchCode::lanes : ssrm::MarchCode::scalar};
 }
 
 // Marches every `stride`-th ray exhaustively in double precision and compares labels: verdict and pixel.
@@ -103,10 +41,10 @@ void add_level0(Row& row, const ssrm::DepthView& depth, const ssrm::ScreenRays& 
 }
 
 // All variants, interleaved. `rays` must not be empty.
-void add_times(Row& row, const Setup& setup, const Tracer& tracer, const GBuffer& gbuffer,
-               DepthPyramid& pyramid, const RayStream& rays, const ssrm::ScreenRays& screen_rays,
-               ssrm::HybridBuffers& buffers, int repeats, uint64_t seed) {
-  const ssrm::DepthView depth{pyramid, gbuffer.depth_derivatives, setup.view.depth_sign()};
+void add_times(Row& row, const SsrmSetup& setup, const ssrm::MarchOptions& march, const Tracer& tracer,
+               SsrmFrame& frame, ssrm::HybridBuffers& buffers, int repeats, uint64_t seed) {
+  const RayStream& rays = frame.rays();
+  const ssrm::DepthView depth = frame.depth();
   std::vector<uint32_t> all(rays.size()), unresolved;
   std::iota(all.begin(), all.end(), 0u);
   ssrm::compact_unresolved(buffers.results, unresolved);
@@ -119,11 +57,11 @@ void add_times(Row& row, const Setup& setup, const Tracer& tracer, const GBuffer
   std::vector<uint32_t>().swap(all);
 
   const auto build_pyramid = [&] {
-    pyramid.build(gbuffer.depth, setup.view.depth_sign(), setup.view.background_depth());
+    frame.pyramid.build(frame.gbuffer.depth, setup.view.depth_sign(), setup.view.background_depth());
   };
   const auto hybrid = [&](TraceMode m) {
     build_pyramid();
-    ssrm::trace_hybrid(tracer, m, depth, rays, screen_rays, setup.march, buffers);
+    ssrm::trace_hybrid(tracer, m, depth, rays, frame.screen_rays, march, buffers);
   };
   enum {
     kGBuffer,
@@ -141,10 +79,10 @@ void add_times(Row& row, const Setup& setup, const Tracer& tracer, const GBuffer
   const Variant variants[] = {
       {"gbuffer", [&] { setup.make_buffers(); }},
       {"pyramid", build_pyramid},
-      {"raygen", [&] { make_reflection_rays(gbuffer, setup.scene); }},
+      {"raygen", [&] { make_reflection_rays(frame.gbuffer, setup.scene); }},
       {"projection", [&] { ssrm::project_rays(rays, setup.view, setup.scene.bounds); }},
       {"compaction", [&] { ssrm::compact_unresolved(buffers.results, buffers.unresolved); }},
-      {"t_ss", [&] { ssrm::march_paper(depth, screen_rays, rays.pixel, setup.march, buffers.results); }},
+      {"t_ss", [&] { ssrm::march_paper(depth, frame.screen_rays, rays.pixel, march, buffers.results); }},
       {"t_hw", [&] { tracer.trace(rays, hits, mode); }},
       {"t_hw_single", [&] { tracer.trace(rays, hits, TraceMode::single); }},
       {"t_unresolved", [&] { tracer.trace_some(rays, unresolved, hits, mode_unresolved); }},
@@ -177,55 +115,44 @@ void add_times(Row& row, const Setup& setup, const Tracer& tracer, const GBuffer
   row["repeats"] = int64_t{repeats};
 }
 
-void add_keys(Row& row, const Point& point, const Setup& setup, const GBuffer& gbuffer) {
-  for (const char* name : {"scene", "camera", "marcher", "march_code", "depth_convention", "derivatives"})
-    row[name] = point.text(name);
-  row["width"] = int64_t{setup.view.width()};
-  row["height"] = int64_t{setup.view.height()};
-  row["near_m"] = setup.view.near();
-  row["far_m"] = setup.view.far();
+void add_keys(Row& row, const Point& point) {
+  for (const char* name : {"marcher", "march_code"}) row[name] = point.text(name);
   row["mirror_depth"] = point.integer("mirror_depth");
   row["step_budget"] = point.integer("step_budget");
   row["footprint_factor"] = point.number("footprint_factor");
-  row["triangles"] = static_cast<int64_t>(setup.scene.triangle_count());
-  row["paths_skipped"] = static_cast<int64_t>(gbuffer.depth.size() - gbuffer.covered_pixels);
-  row["buffers_skipped"] = int64_t{kGBufferKinds - std::popcount(setup.bits)};
-  row["threads"] = int64_t{thread_count()};
 }
 
 }  // namespace
 
 Row run(const Point& point, Workspace& workspace) {
-  const Setup setup = make_setup(point, workspace);
+  const bool picture = point.boolean("picture");
+  const SsrmSetup setup(point, workspace, picture ? kMaterial : 0u);
+  SsrmFrame frame(setup);
+  const RayStream& rays = frame.rays();
+  const ssrm::DepthView depth = frame.depth();
+  const ssrm::MarchOptions march = march_options(point);
   Row row;
-  const GBuffer gbuffer = setup.make_buffers();
-  DepthPyramid pyramid(setup.view.width(), setup.view.height());
-  pyramid.build(gbuffer.depth, setup.view.depth_sign(), setup.view.background_depth());
-  const ReflectionRays reflection = make_reflection_rays(gbuffer, setup.scene);
-  const RayStream& rays = reflection.rays;
-  const ssrm::ScreenRays screen_rays = ssrm::project_rays(rays, setup.view, setup.scene.bounds);
-  const ssrm::DepthView depth{pyramid, gbuffer.depth_derivatives, setup.view.depth_sign()};
-  add_keys(row, point, setup, gbuffer);
-  row["geometric_mirror_rays"] = static_cast<int64_t>(reflection.mirrored_about_geometric_normal);
-  row["buffer_bytes"] = static_cast<int64_t>(gbuffer.memory_bytes() + pyramid.memory_bytes() +
-                                             rays.memory_bytes() + screen_rays.memory_bytes());
+  add_view_cells(row, point, setup, frame);
+  add_keys(row, point);
+  row["buffer_bytes"] = static_cast<int64_t>(frame.memory_bytes());
 
   ssrm::HybridBuffers buffers(rays.size());
-  ssrm::march_paper(depth, screen_rays, rays.pixel, setup.march, buffers.results);
+  ssrm::march_paper(depth, frame.screen_rays, rays.pixel, march, buffers.results);
   row["steps_per_ray"] = share(buffers.results.steps, rays.size());
   {
     const truth::RayTruth truth = truth::trace_truth(setup.robust, rays, setup.view);
-    const bool picture = point.boolean("picture");
     std::vector<metrics::HitClass> classes;
-    add_verdicts(row, metrics::judge(buffers.results, depth, screen_rays, rays, truth, gbuffer, setup.scene,
-                                     {point.number("footprint_factor")}, picture ? &classes : nullptr));
+    add_verdict_cells(
+        row, metrics::judge(buffers.results, depth, frame.screen_rays, rays, truth, frame.gbuffer,
+                            setup.scene, {point.number("footprint_factor")}, picture ? &classes : nullptr));
+    row["resolved_fraction"] = row["alpha"];  // marcher `paper` sends its MISS on
     if (picture)
-      write_verdict_picture(point, workspace, gbuffer, setup.scene, rays, buffers.results, classes);
+      write_verdict_picture(point, workspace, frame.gbuffer, setup.scene, rays, buffers.results, classes);
   }
   if (const int64_t stride = point.integer("level0_every"); stride > 0)
-    add_level0(row, depth, screen_rays, rays.pixel, buffers.results, static_cast<size_t>(stride));
+    add_level0(row, depth, frame.screen_rays, rays.pixel, buffers.results, static_cast<size_t>(stride));
   if (workspace.settings().timing && rays.size() > 0)
-    add_times(row, setup, workspace.tracer(point.text("scene")), gbuffer, pyramid, rays, screen_rays, buffers,
+    add_times(row, setup, march, workspace.tracer(point.text("scene")), frame, buffers,
               static_cast<int>(point.integer("repeats")), workspace.settings().seed);
   return row;
 }

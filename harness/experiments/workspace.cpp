@@ -15,6 +15,7 @@ const Scene& Workspace::scene(const std::string& name) {
   }
   // The old scene goes first, so that no two are in memory at once.
   shared_.clear();
+  newest_.clear();
   tracer_.reset();
   robust_tracer_.reset();
   scene_.reset();

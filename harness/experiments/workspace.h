@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace hybray {
 
@@ -63,6 +64,22 @@ class Workspace {
     return *made;
   }
 
+  // The same, but only the newest result of each `kind` is kept: large things that neighbouring points share.
+  template <class T>
+  const T& newest(const std::string& scene_name, const std::string& kind, const std::string& key,
+                  const std::function<std::shared_ptr<T>()>& make) {
+    scene(scene_name);
+    auto& [held_key, held] = newest_[kind];
+    if (held && held_key == key) {
+      ++reused_;
+      return *static_cast<const T*>(held.get());
+    }
+    held.reset();  // before the next one is made, so that no two are in memory at once
+    held = make();
+    held_key = key;
+    return *static_cast<const T*>(held.get());
+  }
+
   // Work that a point did not need to do again: number of times a scene, an acceleration structure or
   // something shared was there already.
   uint64_t reused() const { return reused_; }
@@ -78,7 +95,8 @@ class Workspace {
   std::string scene_name_;  // of scene_
   std::unique_ptr<Scene> scene_;
   std::unique_ptr<Tracer> tracer_, robust_tracer_;
-  std::map<std::string, std::shared_ptr<void>> shared_;  // by key
+  std::map<std::string, std::shared_ptr<void>> shared_;                          // by key
+  std::map<std::string, std::pair<std::string, std::shared_ptr<void>>> newest_;  // key and result by kind
   uint64_t reused_ = 0;
   ReferenceCounts references_;
 };

@@ -1,0 +1,74 @@
+// What the SSRM experiments share: the main view of a point with its buffers and reflection rays, what those
+// rays truly hit, and the parameters, keys and verdict columns that go with them.
+#pragma once
+
+#include "core/gbuffer/reflection_rays.h"
+#include "core/metrics/verdict_table.h"
+#include "core/ssrm/correction.h"
+#include "core/ssrm/screen_rays.h"
+#include "core/truth/ray_truth.h"
+#include "harness/experiments/experiment.h"
+#include "harness/experiments/workspace.h"
+
+namespace hybray {
+
+// How the main view of a point is made.
+struct SsrmSetup {
+  const Scene& scene;
+  const Tracer& robust;
+  View view;
+  unsigned bits;    // GBufferBits
+  bool difference;  // depth derivatives by differences
+
+  // Of a point that has ssrm_view_parameters(). `more_bits`: further buffers that the experiment needs.
+  SsrmSetup(const Point& point, Workspace& workspace, unsigned more_bits = 0);
+
+  GBuffer make_buffers() const;
+};
+
+// The main view and the mirror reflections of its pixels.
+struct SsrmFrame {
+  GBuffer gbuffer;
+  DepthPyramid pyramid;
+  ReflectionRays reflection;
+  ssrm::ScreenRays screen_rays;
+
+  explicit SsrmFrame(const SsrmSetup& setup);
+  SsrmFrame(const SsrmFrame&) = delete;
+  SsrmFrame& operator=(const SsrmFrame&) = delete;
+
+  const View& view() const { return gbuffer.view; }
+  const RayStream& rays() const { return reflection.rays; }
+  ssrm::DepthView depth() const { return {pyramid, gbuffer.depth_derivatives, view().depth_sign()}; }
+  size_t memory_bytes() const;
+};
+
+// A frame and its truth, made once for neighbouring points with the same view: only the newest is kept.
+struct JudgedFrame {
+  SsrmFrame frame;
+  truth::RayTruth truth;
+
+  explicit JudgedFrame(const SsrmSetup& setup)
+      : frame(setup), truth(truth::trace_truth(setup.robust, frame.rays(), setup.view)) {}
+};
+const JudgedFrame& shared_frame(const Point& point, Workspace& workspace, unsigned more_bits = 0);
+
+// scene, camera, resolution, near, far, depth_convention, derivatives.
+std::vector<Parameter> ssrm_view_parameters();
+
+// The keys of those parameters, and triangles, rays, skipped work and threads, which add_view_cells fills.
+void add_view_columns(std::vector<Column>& columns);
+void add_view_cells(Row& row, const Point& point, const SsrmSetup& setup, const SsrmFrame& frame);
+
+// alpha, miss, the unknowns, precision, recall, false hits: from `alpha` to `through_fraction`, without
+// resolved_fraction, which depends on what a marcher sends on.
+void add_verdict_columns(std::vector<Column>& columns);
+void add_verdict_cells(Row& row, const metrics::VerdictTable& table);
+
+// Rays within rounding of an edge change sides with the general tracer's instruction set: at most 20 in
+// 100,000. A share of rays, and what follows from their number, are compared within that.
+constexpr double kMovedRays = 2e-4;
+Column share_of_rays(const char* name, Better better, const char* text);
+Column follows_rays(Column column);
+
+}  // namespace hybray
