@@ -1,6 +1,5 @@
 // Pyramid, marcher, compaction, and every mode of the general tracer, on the same rays.
 #include "bench/bench_view.h"
-#include "core/ssrm/march_lanes.h"
 
 #include <benchmark/benchmark.h>
 
@@ -8,6 +7,8 @@ namespace hybray::bench {
 namespace {
 
 using State = benchmark::State;
+using ssrm::MarchCode;
+using ssrm::Marcher;
 
 // Wall time of `kernel`, with the time for one of `items` as a counter.
 template <class Kernel>
@@ -33,15 +34,19 @@ void projection(State& state, BenchView& v) {
   measure(state, v.rays.size(),
           [&] { benchmark::DoNotOptimize(ssrm::project_rays(v.rays, v.view, v.scene.bounds)); });
 }
+void slanted_pyramid(State& state, BenchView& v) {
+  measure(state, v.gbuffer.depth.size(), [&] {
+    v.slanted.build(v.gbuffer.depth, v.gbuffer.depth_derivatives, v.view.depth_sign(),
+                    v.view.background_depth());
+  });
+}
+template <ssrm::Marcher kMarcher, ssrm::MarchCode kCode>
 void march(State& state, BenchView& v) {
+  const ssrm::MarchOptions options{.code = kCode, .marcher = kMarcher};
   measure(state, v.rays.size(),
-          [&] { ssrm::march_paper(v.depth(), v.screen_rays, v.rays.pixel, {}, v.buffers.results); });
+          [&] { ssrm::march(v.depth(), v.screen_rays, v.rays.pixel, options, v.buffers.results); });
   state.counters["steps_per_ray"] =
       static_cast<double>(v.buffers.results.steps) / static_cast<double>(v.rays.size());
-}
-void march_lanes(State& state, BenchView& v) {
-  measure(state, v.rays.size(),
-          [&] { ssrm::march_paper_lanes(v.depth(), v.screen_rays, v.rays.pixel, {}, v.buffers.results); });
 }
 void compaction(State& state, BenchView& v) {
   measure(state, v.rays.size(), [&] { ssrm::compact_unresolved(v.buffers.results, v.buffers.unresolved); });
@@ -68,8 +73,11 @@ void register_ssrm() {
   for (const std::string& scene : bench_scenes()) {
     register_kernel("DepthPyramid", scene, pyramid);
     register_kernel("ProjectRays", scene, projection);
-    register_kernel("MarchPaper", scene, march);
-    register_kernel("MarchPaperLanes", scene, march_lanes);
+    register_kernel("SlantedPyramid", scene, slanted_pyramid);
+    register_kernel("MarchPaper", scene, march<Marcher::paper, MarchCode::scalar>);
+    register_kernel("MarchPaperLanes", scene, march<Marcher::paper, MarchCode::lanes>);
+    register_kernel("MarchPlane", scene, march<Marcher::plane, MarchCode::scalar>);
+    register_kernel("MarchPlaneLanes", scene, march<Marcher::plane, MarchCode::lanes>);
     register_kernel("Compaction", scene, compaction);
     register_mode<TraceMode::single>(scene);
     register_mode<TraceMode::packet4>(scene);

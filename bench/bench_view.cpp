@@ -10,12 +10,14 @@ BenchView::BenchView(const std::string& scene_name, int width, int height)
       view(scene.cameras.at(0), {.width = width, .height = height}, scene.bounds),
       gbuffer(make_gbuffer(tracer, view, kDepth | kDepthDerivatives | kShadingNormal | kPrimitive)),
       pyramid(width, height),
+      slanted(width, height),
       rays((pyramid.build(gbuffer.depth, view.depth_sign(), view.background_depth()),
             make_reflection_rays(gbuffer, scene).rays)),
       screen_rays(ssrm::project_rays(rays, view, scene.bounds)),
       buffers(rays.size()) {
+  slanted.build(gbuffer.depth, gbuffer.depth_derivatives, view.depth_sign(), view.background_depth());
   hits.resize(rays.size());
-  ssrm::march_paper(depth(), screen_rays, rays.pixel, {}, buffers.results);
+  ssrm::march(depth(), screen_rays, rays.pixel, {}, buffers.results);
   ssrm::compact_unresolved(buffers.results, buffers.unresolved);
 }
 

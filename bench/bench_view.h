@@ -17,13 +17,14 @@ struct BenchView {
   View view;
   GBuffer gbuffer;
   DepthPyramid pyramid;
+  SlantedPyramid slanted;
   RayStream rays;
   ssrm::ScreenRays screen_rays;
   ssrm::HybridBuffers buffers;
   HitStream hits;
 
   BenchView(const std::string& scene_name, int width, int height);
-  ssrm::DepthView depth() const { return {pyramid, gbuffer.depth_derivatives, view.depth_sign()}; }
+  ssrm::DepthView depth() const { return {pyramid, gbuffer.depth_derivatives, view.depth_sign(), &slanted}; }
 };
 
 // The scenes to measure that can be loaded here: atrium, street and, where they are found, sponza and bistro.

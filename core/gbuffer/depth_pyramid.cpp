@@ -49,11 +49,11 @@ void DepthPyramid::reduce_rows(int level, int first_row, int last_row) {
   }
 }
 
-void DepthPyramid::build(const Image2D<float>& depth, int depth_sign, float background) {
+void DepthPyramid::build(const Image2D<float>& depth, int depth_sign, float background, int levels) {
   HYBRAY_CHECK_EQ(depth.width(), width());
   HYBRAY_CHECK_EQ(depth.height(), height());
   const float sign = static_cast<float>(depth_sign);
-  const int h = height(), w = width();
+  const int h = height(), w = width(), built = std::min(levels, this->levels());
   const int bands = (h + kBandRows - 1) / kBandRows;
   parallel_blocks(static_cast<size_t>(bands), 1, [&](size_t band, size_t) {
     const int first = static_cast<int>(band) * kBandRows, last = std::min(h, first + kBandRows);
@@ -61,10 +61,10 @@ void DepthPyramid::build(const Image2D<float>& depth, int depth_sign, float back
     float* out = texels_.data() + static_cast<size_t>(first) * w;
     for (size_t i = 0; i < static_cast<size_t>(last - first) * w; ++i)
       out[i] = in[i] == background ? std::numeric_limits<float>::infinity() : sign * in[i];
-    for (int l = 1; l <= kBandLevels && l < levels(); ++l)
+    for (int l = 1; l <= kBandLevels && l < built; ++l)
       reduce_rows(l, first >> l, (last + (1 << l) - 1) >> l);
   });
-  for (int l = kBandLevels + 1; l < levels(); ++l) reduce_rows(l, 0, levels_[l].height);
+  for (int l = kBandLevels + 1; l < built; ++l) reduce_rows(l, 0, levels_[l].height);
 }
 
 }  // namespace hybray

@@ -25,9 +25,10 @@ class DepthPyramid {
   // Allocates all levels for this size; contents are set by `build`.
   DepthPyramid(int width, int height);
 
-  // Fills all levels from a depth buffer of the same size, all threads. `background` is the value of pixels
-  // that see nothing.
-  void build(const Image2D<float>& depth, int depth_sign, float background);
+  // Fills the first `levels` levels from a depth buffer of the same size, all threads. `background` is the
+  // value of pixels that see nothing.
+  void build(const Image2D<float>& depth, int depth_sign, float background, int levels = kAllLevels);
+  static constexpr int kAllLevels = 32;
 
   int levels() const { return static_cast<int>(levels_.size()); }
   int width() const { return levels_[0].width; }
@@ -39,9 +40,10 @@ class DepthPyramid {
     return texels_[l.first + static_cast<size_t>(y) * static_cast<size_t>(l.width) + static_cast<size_t>(x)];
   }
   // All texels, level after level, each row by row: at(level, x, y) is texels()[first_texel(level) + y *
-  // width(level) + x].
+  // row_length(level) + x].
   const float* texels() const { return texels_.data(); }
   size_t first_texel(int level) const { return levels_[level].first; }
+  int row_length(int level) const { return levels_[level].width; }
   size_t memory_bytes() const { return texels_.size() * sizeof(float); }
 
  private:

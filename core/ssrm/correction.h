@@ -4,6 +4,7 @@
 
 #include "core/base/image2d.h"
 #include "core/gbuffer/depth_pyramid.h"
+#include "core/gbuffer/slanted_pyramid.h"
 #include "core/ssrm/screen_rays.h"
 
 namespace hybray::ssrm {
@@ -11,8 +12,9 @@ namespace hybray::ssrm {
 // What a marcher sees of the main view. The references must outlive it.
 struct DepthView {
   const DepthPyramid& pyramid;
-  const Image2D<vec2>& derivatives;  // device depth a pixel, as in GBuffer
-  int depth_sign;                    // View::depth_sign()
+  const Image2D<vec2>& derivatives;         // device depth a pixel, as in GBuffer
+  int depth_sign;                           // View::depth_sign()
+  const SlantedPyramid* slanted = nullptr;  // for march_plane only
   int width() const { return pyramid.width(); }
   int height() const { return pyramid.height(); }
 };

@@ -24,7 +24,7 @@ void compact_unresolved(const MarchResults& results, std::vector<uint32_t>& list
 
 void trace_hybrid(const Tracer& tracer, TraceMode mode, const DepthView& view, const RayStream& rays,
                   const ScreenRays& screen_rays, const MarchOptions& options, HybridBuffers& buffers) {
-  march_paper(view, screen_rays, rays.pixel, options, buffers.results);
+  march(view, screen_rays, rays.pixel, options, buffers.results);
   compact_unresolved(buffers.results, buffers.unresolved);
   tracer.trace_some(rays, buffers.unresolved, buffers.hits, mode);
 }

@@ -2,7 +2,7 @@
 // of its own, so that each can be timed.
 #pragma once
 
-#include "core/ssrm/march_paper.h"
+#include "core/ssrm/march.h"
 #include "core/tracer/tracer.h"
 
 #include <span>

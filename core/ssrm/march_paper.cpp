@@ -1,11 +1,6 @@
 #include "core/ssrm/march_paper.h"
 
-#include "core/base/check.h"
-#include "core/base/parallel.h"
 #include "core/ssrm/cell_walk.h"
-#include "core/ssrm/march_lanes.h"
-
-#include <atomic>
 
 namespace hybray::ssrm {
 namespace {
@@ -57,24 +52,6 @@ Correction march_paper_ray(const DepthView& view, const ScreenRay<float>& ray, u
 
   // Stage 3: correction with slanted planes.
   return correct(view, promoted(ray), {walk.px, walk.py}, walk.previous(), origin);
-}
-
-void march_paper(const DepthView& view, const ScreenRays& rays, const std::vector<uint32_t>& pixels,
-                 const MarchOptions& options, MarchResults& results) {
-  HYBRAY_CHECK_EQ(rays.size(), pixels.size());
-  HYBRAY_CHECK_EQ(rays.size(), results.size());
-  if (options.code == MarchCode::lanes) return march_paper_lanes(view, rays, pixels, options, results);
-  std::atomic<uint64_t> steps{0};
-  parallel_blocks(rays.size(), 1024, [&](size_t begin, size_t end) {
-    uint64_t mine = 0;
-    for (size_t i = begin; i < end; ++i) {
-      const Correction c = march_paper_ray(view, rays.get<float>(i), pixels[i], options, mine);
-      results.verdict[i] = c.verdict;
-      results.pixel[i] = c.pixel;
-    }
-    steps += mine;
-  });
-  results.steps = steps;
 }
 
 }  // namespace hybray::ssrm

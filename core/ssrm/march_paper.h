@@ -1,29 +1,14 @@
-// The SSRM paper's marcher: strict, hierarchical, no heuristics. As scalar code, the reference that faster
-// versions are held against, or in vector lanes (march_lanes.h), which give the same results.
+// The SSRM paper's marcher: strict, hierarchical, no heuristics, as scalar code. It is the reference that
+// faster versions are held against.
 #pragma once
 
-#include "core/base/ray_stream.h"
 #include "core/ssrm/correction.h"
+#include "core/ssrm/march_options.h"
 
 namespace hybray::ssrm {
 
-// Depth samples in one iteration, between changes of level: the paper's balance of arithmetic against memory.
-inline constexpr int kSamplesPerIteration = 4;
-
-enum class MarchCode : uint8_t { scalar, lanes };
-
-struct MarchOptions {
-  uint64_t step_budget = 0;  // depth samples a ray may read; 0 = as many as it needs (it always ends)
-  MarchCode code = MarchCode::scalar;
-};
-
-// The paper's three stages for every ray, all threads. `pixels` holds each ray's own pixel
-// (RayStream::pixel). The march starts at the exit of that pixel. `results` is resized by the caller to
-// rays.size().
-void march_paper(const DepthView& view, const ScreenRays& rays, const std::vector<uint32_t>& pixels,
-                 const MarchOptions& options, MarchResults& results);
-
-// One ray. Adds the depth samples read to `steps`.
+// The paper's three stages for one ray; the march starts at the exit of `pixel`, its own. Adds the depth
+// samples read to `steps`.
 Correction march_paper_ray(const DepthView& view, const ScreenRay<float>& ray, uint32_t pixel,
                            const MarchOptions& options, uint64_t& steps);
 

@@ -15,7 +15,15 @@ std::vector<Parameter> parameters() {
   p.insert(
       p.end(),
       {
-          choice("marcher", "paper", {"paper"}, "Screen-space marcher."),
+          choice(
+              "marcher", "paper", {"paper", "plane"},
+              "Screen-space marcher: the paper's, or the one that takes pixels and cells as slanted planes."),
+          choice("bounds", "slanted", {"slanted", "flat"},
+                 "Depth pyramid of marcher `plane`: slanted planes, or flat ones."),
+          choice("ascent", "parent", {"parent", "iteration"},
+                 "When marcher `plane` goes a level up: where it leaves the cell of that level, or after "
+                 "four samples "
+                 "without intersection as the paper's does."),
           choice(
               "march_code", "scalar", {"scalar", "lanes"},
               "Marcher as scalar code, or many rays at a time in vector lanes: the same results, less time."),
@@ -40,6 +48,8 @@ std::vector<Column> columns() {
   add_view_columns(c);
   add(c, {
              key("marcher", "screen-space marcher"),
+             key("bounds", "depth pyramid of marcher `plane`"),
+             key("ascent", "when marcher `plane` goes a level up"),
              key("march_code", "scalar code or vector lanes"),
              key("mirror_depth", "mirror reflections along a path"),
              key("step_budget", "depth samples a ray may read; 0 = no limit"),
@@ -63,7 +73,7 @@ std::vector<Column> columns() {
               {0.0, 10 * kMovedRays}},
          });
   add_time(c, "gbuffer", "depth, derivatives and normals of the main view");
-  add_time(c, "pyramid", "depth pyramid");
+  add_time(c, "pyramid", "depth pyramid that the marcher needs");
   add_time(c, "raygen", "world-space reflection rays");
   add_time(c, "projection", "rays into screen space; the paper's ray buffers already are");
   add_time(c, "compaction", "list of the unresolved rays");

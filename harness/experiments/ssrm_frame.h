@@ -10,6 +10,8 @@
 #include "harness/experiments/experiment.h"
 #include "harness/experiments/workspace.h"
 
+#include <optional>
+
 namespace hybray {
 
 // How the main view of a point is made.
@@ -32,6 +34,7 @@ struct SsrmFrame {
   DepthPyramid pyramid;
   ReflectionRays reflection;
   ssrm::ScreenRays screen_rays;
+  std::optional<SlantedPyramid> slanted;  // after add_slanted
 
   explicit SsrmFrame(const SsrmSetup& setup);
   SsrmFrame(const SsrmFrame&) = delete;
@@ -39,7 +42,11 @@ struct SsrmFrame {
 
   const View& view() const { return gbuffer.view; }
   const RayStream& rays() const { return reflection.rays; }
-  ssrm::DepthView depth() const { return {pyramid, gbuffer.depth_derivatives, view().depth_sign()}; }
+  ssrm::DepthView depth() const {
+    return {pyramid, gbuffer.depth_derivatives, view().depth_sign(), slanted ? &*slanted : nullptr};
+  }
+  // Builds, or builds anew, what marcher `plane` marches on.
+  void add_slanted(SlantedPyramid::Bounds bounds);
   size_t memory_bytes() const;
 };
 

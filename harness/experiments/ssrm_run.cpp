@@ -18,14 +18,21 @@ namespace {
 using ssrm::Verdict;
 
 ssrm::MarchOptions march_options(const Point& point) {
-  return {static_cast<uint64_t>(point.integer("step_budget")),
-          point.text("march_code") == "lanes" ? ssrm::MarchCode::lanes : ssrm::MarchCode::scalar};
+  return {.step_budget = static_cast<uint64_t>(point.integer("step_budget")),
+          .code = point.text("march_code") == "lanes" ? ssrm::MarchCode::lanes : ssrm::MarchCode::scalar,
+          .marcher = point.text("marcher") == "plane" ? ssrm::Marcher::plane : ssrm::Marcher::paper,
+          .ascent = point.text("ascent") == "parent" ? ssrm::Ascent::parent : ssrm::Ascent::iteration};
+}
+
+SlantedPyramid::Bounds bounds_of(const Point& point) {
+  return point.text("bounds") == "flat" ? SlantedPyramid::Bounds::flat : SlantedPyramid::Bounds::slanted;
 }
 
 // Marches every `stride`-th ray exhaustively in double precision and compares labels: verdict and pixel.
 void add_level0(Row& row, const ssrm::DepthView& depth, const ssrm::ScreenRays& rays,
-                const std::vector<uint32_t>& pixels, const ssrm::MarchResults& results, size_t stride) {
-  const ssrm::MarchResults exact = truth::march_level0<double>(depth, rays, pixels, stride);
+                const std::vector<uint32_t>& pixels, const ssrm::MarchResults& results, ssrm::Marcher marcher,
+                size_t stride) {
+  const ssrm::MarchResults exact = truth::march_level0<double>(depth, rays, pixels, stride, marcher);
   uint64_t differ = 0;
   double margin = 0.0;
   for (size_t j = 0; j < exact.size(); ++j) {
@@ -34,7 +41,7 @@ void add_level0(Row& row, const ssrm::DepthView& depth, const ssrm::ScreenRays& 
     if (results.verdict[i] == Verdict::budget) continue;
     if (exact.verdict[j] == results.verdict[i] && exact.pixel[j] == results.pixel[i]) continue;
     ++differ;
-    margin = std::max(margin, truth::first_difference_margin(depth, rays, i, pixels[i]));
+    margin = std::max(margin, truth::first_difference_margin(depth, rays, i, pixels[i], marcher));
   }
   row["level0_disagreement_fraction"] = share(differ, exact.size());
   if (differ > 0 && std::isfinite(margin)) row["level0_margin_ulp"] = margin;
@@ -42,7 +49,8 @@ void add_level0(Row& row, const ssrm::DepthView& depth, const ssrm::ScreenRays& 
 
 // All variants, interleaved. `rays` must not be empty.
 void add_times(Row& row, const SsrmSetup& setup, const ssrm::MarchOptions& march, const Tracer& tracer,
-               SsrmFrame& frame, ssrm::HybridBuffers& buffers, int repeats, uint64_t seed) {
+               SlantedPyramid::Bounds bounds, SsrmFrame& frame, ssrm::HybridBuffers& buffers, int repeats,
+               uint64_t seed) {
   const RayStream& rays = frame.rays();
   const ssrm::DepthView depth = frame.depth();
   std::vector<uint32_t> all(rays.size()), unresolved;
@@ -57,7 +65,10 @@ void add_times(Row& row, const SsrmSetup& setup, const ssrm::MarchOptions& march
   std::vector<uint32_t>().swap(all);
 
   const auto build_pyramid = [&] {
-    frame.pyramid.build(frame.gbuffer.depth, setup.view.depth_sign(), setup.view.background_depth());
+    // Marcher `plane` reads the first level alone of the flat pyramid.
+    frame.pyramid.build(frame.gbuffer.depth, setup.view.depth_sign(), setup.view.background_depth(),
+                        frame.slanted ? 1 : DepthPyramid::kAllLevels);
+    if (frame.slanted) frame.add_slanted(bounds);
   };
   const auto hybrid = [&](TraceMode m) {
     build_pyramid();
@@ -82,7 +93,7 @@ void add_times(Row& row, const SsrmSetup& setup, const ssrm::MarchOptions& march
       {"raygen", [&] { make_reflection_rays(frame.gbuffer, setup.scene); }},
       {"projection", [&] { ssrm::project_rays(rays, setup.view, setup.scene.bounds); }},
       {"compaction", [&] { ssrm::compact_unresolved(buffers.results, buffers.unresolved); }},
-      {"t_ss", [&] { ssrm::march_paper(depth, frame.screen_rays, rays.pixel, march, buffers.results); }},
+      {"t_ss", [&] { ssrm::march(depth, frame.screen_rays, rays.pixel, march, buffers.results); }},
       {"t_hw", [&] { tracer.trace(rays, hits, mode); }},
       {"t_hw_single", [&] { tracer.trace(rays, hits, TraceMode::single); }},
       {"t_unresolved", [&] { tracer.trace_some(rays, unresolved, hits, mode_unresolved); }},
@@ -117,6 +128,8 @@ void add_times(Row& row, const SsrmSetup& setup, const ssrm::MarchOptions& march
 
 void add_keys(Row& row, const Point& point) {
   for (const char* name : {"marcher", "march_code"}) row[name] = point.text(name);
+  if (point.text("marcher") == "plane")
+    for (const char* name : {"bounds", "ascent"}) row[name] = point.text(name);
   row["mirror_depth"] = point.integer("mirror_depth");
   row["step_budget"] = point.integer("step_budget");
   row["footprint_factor"] = point.number("footprint_factor");
@@ -129,15 +142,16 @@ Row run(const Point& point, Workspace& workspace) {
   const SsrmSetup setup(point, workspace, picture ? kMaterial : 0u);
   SsrmFrame frame(setup);
   const RayStream& rays = frame.rays();
-  const ssrm::DepthView depth = frame.depth();
   const ssrm::MarchOptions march = march_options(point);
+  if (march.marcher == ssrm::Marcher::plane) frame.add_slanted(bounds_of(point));
+  const ssrm::DepthView depth = frame.depth();
   Row row;
   add_view_cells(row, point, setup, frame);
   add_keys(row, point);
   row["buffer_bytes"] = static_cast<int64_t>(frame.memory_bytes());
 
   ssrm::HybridBuffers buffers(rays.size());
-  ssrm::march_paper(depth, frame.screen_rays, rays.pixel, march, buffers.results);
+  ssrm::march(depth, frame.screen_rays, rays.pixel, march, buffers.results);
   row["steps_per_ray"] = share(buffers.results.steps, rays.size());
   {
     const truth::RayTruth truth = truth::trace_truth(setup.robust, rays, setup.view);
@@ -145,14 +159,15 @@ Row run(const Point& point, Workspace& workspace) {
     add_verdict_cells(
         row, metrics::judge(buffers.results, depth, frame.screen_rays, rays, truth, frame.gbuffer,
                             setup.scene, {point.number("footprint_factor")}, picture ? &classes : nullptr));
-    row["resolved_fraction"] = row["alpha"];  // marcher `paper` sends its MISS on
+    row["resolved_fraction"] = row["alpha"];  // both marchers send their MISS on
     if (picture)
       write_verdict_picture(point, workspace, frame.gbuffer, setup.scene, rays, buffers.results, classes);
   }
   if (const int64_t stride = point.integer("level0_every"); stride > 0)
-    add_level0(row, depth, frame.screen_rays, rays.pixel, buffers.results, static_cast<size_t>(stride));
+    add_level0(row, depth, frame.screen_rays, rays.pixel, buffers.results, march.marcher,
+               static_cast<size_t>(stride));
   if (workspace.settings().timing && rays.size() > 0)
-    add_times(row, setup, march, workspace.tracer(point.text("scene")), frame, buffers,
+    add_times(row, setup, march, workspace.tracer(point.text("scene")), bounds_of(point), frame, buffers,
               static_cast<int>(point.integer("repeats")), workspace.settings().seed);
   return row;
 }

@@ -140,7 +140,7 @@ double median_sphere_error(int height) {
   const DepthView depth{s.pyramid, s.derivatives, s.view.depth_sign()};
   MarchResults results;
   results.resize(rays.size());
-  march_paper(depth, screen, rays.pixel, {}, results);
+  march(depth, screen, rays.pixel, {}, results);
   std::vector<double> errors;
   for (size_t i = 0; i < rays.size(); ++i) {
     if (results.verdict[i] != Verdict::hit) continue;

@@ -1,9 +1,10 @@
-// The march in lanes against the scalar one: verdict, pixel and number of samples of every ray.
-#include "core/ssrm/march_lanes.h"
-
+// The marches in lanes against the scalar ones: verdict, pixel and number of samples of every ray.
+#include "core/base/hash.h"
 #include "core/base/lanes.h"
 #include "tests/core/ssrm/main_view.h"
 #include "tests/core/test_scenes.h"
+
+#include <algorithm>
 
 #include <gtest/gtest.h>
 
@@ -18,7 +19,18 @@ void expect_same(const MarchResults& lanes, const MarchResults& scalar, const st
   EXPECT_EQ(different, 0u) << what << ", of " << scalar.size();
 }
 
-TEST(MarchLanes, EndAsTheScalarMarchDoesOnEveryInstructionSet) {
+struct Kind {
+  const char* name;
+  Marcher marcher;
+  Ascent ascent;
+};
+constexpr Kind kKinds[] = {{"Paper", Marcher::paper, Ascent::iteration},
+                           {"Plane", Marcher::plane, Ascent::parent},
+                           {"PlaneByIteration", Marcher::plane, Ascent::iteration}};
+
+class MarchLanes : public testing::TestWithParam<Kind> {};
+
+TEST_P(MarchLanes, EndAsTheScalarMarchDoesOnEveryInstructionSet) {
   const Scene scene = test::triangle_soup(300, 1.0f, 2.0f, 21);
   const Tracer tracer(scene, {.robust = true});
   size_t rays = 0;
@@ -30,19 +42,60 @@ TEST(MarchLanes, EndAsTheScalarMarchDoesOnEveryInstructionSet) {
       const test::MainView v(tracer, view);
       rays += v.rays.size();
       for (const uint64_t budget : {0, 1, 2, 7, 40}) {
-        const MarchResults scalar = v.march({.step_budget = budget});
+        MarchOptions options{
+            .step_budget = budget, .marcher = GetParam().marcher, .ascent = GetParam().ascent};
+        const MarchResults scalar = v.march(options);
+        options.code = MarchCode::lanes;
         for (const std::string& target : lanes_targets()) {
           use_lanes_target(target);
-          MarchResults lanes;
-          lanes.resize(v.rays.size());
-          march_paper_lanes(v.depth(), v.screen_rays, v.rays.pixel, {.step_budget = budget}, lanes);
-          expect_same(lanes, scalar, target + " " + std::to_string(width) + " " + std::to_string(budget));
+          expect_same(v.march(options), scalar,
+                      target + " " + std::to_string(width) + " " + std::to_string(budget));
         }
         use_lanes_target("");
       }
     }
   EXPECT_GT(rays, 50000u);
 }
+
+TEST_P(MarchLanes, AListMarchesItsRaysAsTheFullMarchDoesAndTouchesNoOther) {
+  const Scene scene = test::triangle_soup(300, 1.0f, 2.0f, 21);
+  const Tracer tracer(scene, {.robust = true});
+  const test::MainView v(tracer, View(Camera{"c", vec3(0, 0.5f, 3), vec3(0)},
+                                      {.width = 333, .height = 217, .near = 0.5}, scene.bounds));
+  MarchOptions options{.marcher = GetParam().marcher, .ascent = GetParam().ascent};
+  const MarchResults full = v.march(options);
+  constexpr uint64_t kSeed = 5;
+  std::vector<uint32_t> list;
+  for (uint32_t i = 0; i < full.size(); ++i)
+    if (random_unit(i, 0, 0, kSeed) < 0.3) list.push_back(i);
+  std::reverse(list.begin(), list.end());  // any order
+  for (const std::vector<uint32_t>& which : {list, {list[7]}, std::vector<uint32_t>{}}) {
+    std::vector<bool> listed(full.size());
+    uint64_t steps = 0;
+    for (const uint32_t i : which) {
+      listed[i] = true;
+      march_ray(v.depth(), v.screen_rays.get<float>(i), v.rays.pixel[i], options, steps);
+    }
+    for (const MarchCode code : {MarchCode::scalar, MarchCode::lanes}) {
+      options.code = code;
+      MarchResults some;
+      some.resize(full.size());
+      std::fill(some.pixel.begin(), some.pixel.end(), 77u);
+      std::fill(some.verdict.begin(), some.verdict.end(), Verdict::budget);
+      march_some(v.depth(), v.screen_rays, v.rays.pixel, which, options, some);
+      size_t wrong = 0;
+      for (size_t i = 0; i < full.size(); ++i)
+        wrong += some.verdict[i] != (listed[i] ? full.verdict[i] : Verdict::budget) ||
+                 some.pixel[i] != (listed[i] ? full.pixel[i] : 77u);
+      EXPECT_EQ(wrong, 0u) << (code == MarchCode::lanes ? "lanes" : "scalar") << ", " << which.size()
+                           << " listed, seed " << kSeed;
+      EXPECT_EQ(some.steps, steps);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Marchers, MarchLanes, testing::ValuesIn(kKinds),
+                         [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
 }  // namespace hybray::ssrm

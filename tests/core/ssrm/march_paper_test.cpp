@@ -1,13 +1,10 @@
 #include "core/ssrm/march_paper.h"
 
-#include "core/ssrm/march_lanes.h"
-#include "core/truth/march_level0.h"
 #include "tests/core/ssrm/main_view.h"
 #include "tests/core/test_scenes.h"
 
 #include <array>
 #include <cmath>
-#include <iostream>
 
 #include <gtest/gtest.h>
 
@@ -95,74 +92,6 @@ TEST(MarchPaper, ABackgroundPixelIsNeverHit) {
       EXPECT_TRUE(verdict == Verdict::miss || verdict == Verdict::offscreen) << label(verdict);
   }
 }
-
-struct Size {
-  int width, height;
-};
-constexpr Size kSizes[] = {{1280, 720}, {1919, 1079}, {333, 217}, {64, 1}, {1, 1}};
-constexpr size_t kCamerasAtFullSize =
-    2;  // an exhaustive march of the largest size takes seconds a camera; the others see the smaller sizes
-
-class MarchPaperScenes : public testing::TestWithParam<const char*> {};
-
-// Labels (verdict and pixel) must be those of the exhaustive marcher of the same arithmetic, ray for ray;
-// against double precision only rays within rounding of a decision may differ, at most 2 in 100,000 of all
-// rays together.
-TEST_P(MarchPaperScenes, AgreesWithTheExhaustiveMarcher) {
-  const ScenePaths paths = test::scene_paths();
-  if (find_scene(paths, GetParam()).state != SceneState::available) {
-    if (test::scenes_required())
-      FAIL() << "scene " << GetParam() << " is required here (HYBRAY_REQUIRE_SCENES=1) but was not found";
-    GTEST_SKIP() << "scene " << GetParam()
-                 << " was not found: set HYBRAY_SCENE_PATH to the folder that holds it";
-  }
-  const Scene scene = load_scene(paths, GetParam());
-  const Tracer tracer(scene, {.robust = true});
-  size_t compared = 0, different = 0;
-  for (size_t c = 0; c < scene.cameras.size(); ++c)
-    for (const Size& size : kSizes) {
-      if (size.width > 1280 && c >= kCamerasAtFullSize) continue;
-      const auto convention =
-          (c + static_cast<size_t>(size.width)) % 2 ? DepthConvention::standard : DepthConvention::reversed;
-      const View view(scene.cameras[c],
-                      {.width = size.width, .height = size.height, .convention = convention}, scene.bounds);
-      const test::MainView v(tracer, view);
-      const MarchResults marched = v.march();
-      const MarchResults same = truth::march_level0<float>(v.depth(), v.screen_rays, v.rays.pixel);
-      ASSERT_EQ(marched.verdict, same.verdict)
-          << scene.cameras[c].name << " " << size.width << "x" << size.height;
-      ASSERT_EQ(marched.pixel, same.pixel)
-          << scene.cameras[c].name << " " << size.width << "x" << size.height;
-      MarchResults lanes;
-      lanes.resize(v.rays.size());
-      march_paper_lanes(v.depth(), v.screen_rays, v.rays.pixel, {}, lanes);
-      ASSERT_EQ(lanes.verdict, marched.verdict);
-      ASSERT_EQ(lanes.pixel, marched.pixel);
-      ASSERT_EQ(lanes.steps, marched.steps);
-      if (v.rays.size() > 5000) {
-        EXPECT_LT(marched.steps, same.steps / 2) << "the hierarchy must save steps";
-      }
-
-      const MarchResults exact = truth::march_level0<double>(v.depth(), v.screen_rays, v.rays.pixel);
-      for (size_t i = 0; i < exact.size(); ++i) {
-        if (exact.verdict[i] == marched.verdict[i] && exact.pixel[i] == marched.pixel[i]) continue;
-        ++different;
-        EXPECT_LT(truth::first_difference_margin(v.depth(), v.screen_rays, i, v.rays.pixel[i]), 16.0)
-            << scene.cameras[c].name << " " << size.width << "x" << size.height << " ray " << i;
-      }
-      compared += exact.size();
-    }
-  RecordProperty("rays_compared", std::to_string(compared));
-  RecordProperty("rays_different", std::to_string(different));
-  std::cout << GetParam() << ": " << different << " of " << compared
-            << " rays labelled differently in double precision\n";
-  EXPECT_LE(static_cast<double>(different), 2e-5 * static_cast<double>(compared));
-  EXPECT_GT(compared, 1000000u);
-}
-
-INSTANTIATE_TEST_SUITE_P(Scenes, MarchPaperScenes,
-                         testing::Values("sphere", "atrium", "street", "sponza", "bistro"),
-                         [](const auto& test) { return std::string(test.param); });
 
 }  // namespace
 }  // namespace hybray::ssrm

@@ -1,0 +1,98 @@
+#include "core/ssrm/march_plane.h"
+
+#include "core/ssrm/cell_walk.h"
+
+namespace hybray::ssrm {
+namespace {
+
+// Whether the ray may be behind the texel's bound somewhere between `enter` and `leave`.
+bool may_be_behind(const SlantedTexel& texel, const ScreenRay<float>& ray, float center_x, float center_y,
+                   float enter, float leave) {
+  const float across = texel.slope_x() * (center_x - ray.ox) + texel.slope_y() * (center_y - ray.oy);
+  const float bound = (texel.depth - origin_with_slack(ray.oz)) - across;  // minus the ray's, at l = 0
+  const float slope = ray.dz - (texel.slope_x() * ray.dx + texel.slope_y() * ray.dy);
+  return std::max(enter * slope, leave * slope) > bound;
+}
+
+// Of a cell's square, pixels.
+float center(int cell, int level) {
+  return static_cast<float>(2 * cell + 1) * (0.5f * static_cast<float>(1 << level));
+}
+
+ScreenRay<double> promoted(const ScreenRay<float>& r) {
+  return {r.ox, r.oy, r.oz, r.dx, r.dy, r.dz, r.l_end, r.end};
+}
+
+bool crosses_border_above(int border, int level) {
+  return ((border >> level) & 1) == 0;
+}
+
+}  // namespace
+
+PixelCrossing pixel_crossing(const DepthView& view, const ScreenRay<double>& ray, int x, int y) {
+  const Axis<double> ax{ray.ox, ray.dx, view.width()}, ay{ray.oy, ray.dy, view.height()};
+  const double enter = std::max(ax.crossing(ax.entry_border(x)), ay.crossing(ay.entry_border(y)));
+  const double leave =
+      std::min({ax.crossing(ax.exit_border(x, 0)), ay.crossing(ay.exit_border(y, 0)), ray.l_end});
+  const PlaneGap gap = plane_gap(view, ray, x, y);
+  const vec2 slope = view.derivatives(x, y);
+  const double magnitude = std::abs(static_cast<double>(view.pyramid.at(0, x, y))) +
+                           std::abs(static_cast<double>(slope.x)) + std::abs(static_cast<double>(slope.y));
+  const double tolerance = kBufferRounding * magnitude;
+  if (gap.at(enter) > tolerance) return PixelCrossing::behind;
+  return gap.at(leave) > tolerance ? PixelCrossing::hit : PixelCrossing::in_front;
+}
+
+Correction continue_plane_ray(const DepthView& view, const ScreenRay<float>& ray, const PlaneMarch& from,
+                              const MarchOptions& options, uint64_t& steps) {
+  const SlantedPyramid& bounds = *view.slanted;
+  const int top = bounds.levels() - 1;
+  const uint64_t last_step = options.step_budget ? steps + options.step_budget - from.taken : ~uint64_t{0};
+  CellWalk<float> walk(ray, view.width(), view.height(), from.x, from.y);
+  walk.l = from.l;
+  int level = 0, samples = from.samples;
+  for (bool clear = from.clear;; clear = false) {
+    if (!clear) {
+      if (steps == last_step) return {Verdict::budget, kNoPixel};
+      ++steps;
+    }
+    const auto exit = walk.exit(level);
+    const bool ends = ray.l_end <= exit.l();
+    const int cell_x = walk.px >> level, cell_y = walk.py >> level;
+    if (!clear && may_be_behind(bounds.at(level, cell_x, cell_y), ray, center(cell_x, level), center(cell_y, level),
+                                walk.l, ends ? ray.l_end : exit.l())) {
+      if (level > 0) {
+        walk.descend(level--);
+        samples = 0;
+        continue;
+      }
+      const PixelCrossing crossing = pixel_crossing(view, promoted(ray), walk.px, walk.py);
+      if (crossing == PixelCrossing::behind) return {Verdict::behind, kNoPixel};
+      if (crossing == PixelCrossing::hit)
+        return {Verdict::hit, static_cast<uint32_t>(walk.py * view.width() + walk.px)};
+    }
+    if (ends) return {ray.end, kNoPixel};
+    if (!walk.advance(exit)) return {Verdict::offscreen, kNoPixel};
+    bool up = false;
+    if (options.ascent == Ascent::parent) {
+      up = (exit.lx <= walk.l && crosses_border_above(exit.border_x, level)) ||
+           (exit.ly <= walk.l && crosses_border_above(exit.border_y, level));
+    } else if (++samples == kSamplesPerIteration) {
+      up = true;
+      samples = 0;
+    }
+    if (up) level = std::min(level + 1, top);
+  }
+}
+
+Correction march_plane_ray(const DepthView& view, const ScreenRay<float>& ray, uint32_t pixel,
+                           const MarchOptions& options, uint64_t& steps) {
+  const int width = view.width();
+  CellWalk<float> walk(ray, width, view.height(), static_cast<int>(pixel) % width, static_cast<int>(pixel) / width);
+  const auto first_exit = walk.exit(0);
+  if (ray.l_end <= first_exit.l()) return {ray.end, kNoPixel};
+  if (!walk.advance(first_exit)) return {Verdict::offscreen, kNoPixel};
+  return continue_plane_ray(view, ray, {.x = walk.px, .y = walk.py, .l = walk.l}, options, steps);
+}
+
+}  // namespace hybray::ssrm

@@ -1,0 +1,27 @@
+#include "core/ssrm/march_wave.h"
+
+namespace hybray::ssrm {
+namespace {
+
+// By WaveEnd; kAtEnd has its own, and kCleared none yet.
+constexpr Verdict kVerdictOf[] = {Verdict::miss,   Verdict::budget,     Verdict::behind, Verdict::hit,
+                                 Verdict::behind, Verdict::correction, Verdict::behind};
+
+}  // namespace
+
+size_t write_results(const ScreenRays& rays, int width, const MarchWave::Ended& ended,
+                     MarchResults& results) {
+  size_t cleared = 0;
+  // Without branches: how a ray ended is hard to predict.
+  for (size_t i = 0; i < ended.count; ++i) {
+    const uint32_t ray = ended.ray[i];
+    const int32_t how = ended.how[i], pixel = ended.y[i] * width + ended.x[i];
+    const Verdict at_end = rays.l_end[ray] <= ended.l[i] ? rays.end[ray] : Verdict::offscreen;
+    results.verdict[ray] = how == kAtEnd ? at_end : kVerdictOf[how];
+    results.pixel[ray] = how == kHit ? static_cast<uint32_t>(pixel) : kNoPixel;
+    cleared += how == kCleared;
+  }
+  return cleared;
+}
+
+}  // namespace hybray::ssrm
