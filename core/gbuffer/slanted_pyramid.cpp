@@ -20,9 +20,9 @@
 #define HYBRAY_SLANTED_PYRAMID_ONCE
 namespace hybray {
 
-// Float code that asks on which side of a bound a ray is may err by that much (core/ssrm/march_plane.h has the
-// other part, which depends on the ray): shares of the depth, and of the slopes times the distance in pixels
-// over which they are followed.
+// Float code that asks on which side of a bound a ray is may err by that much (core/ssrm/march_plane.h has
+// the other part, which depends on the ray): shares of the depth, and of the slopes times the distance in
+// pixels over which they are followed.
 constexpr float kDepthSlack = 0x1p-21f, kSlopeSlack = 0x1p-20f;
 
 // Depth of pixels and their derivatives, where a row begins, and what turns them into march depth.
@@ -65,14 +65,15 @@ HWY_INLINE VF sum_of_magnitudes(VF x, VF y) {
   return hn::Add(hn::Abs(x), hn::Abs(y));
 }
 
-// Texels from bounds with rounded slopes, where there are any. `lost`: the greatest difference that went into the
-// depth, which may be much greater than the depth itself.
+// Texels from bounds with rounded slopes, where there are any. `lost`: the greatest difference that went into
+// the depth, which may be much greater than the depth itself.
 HWY_INLINE void store(VF depth, VF lost, VF slope_x, VF slope_y, M any, const LevelShape& shape,
                       SlantedTexel* to) {
   const DF df;
   const DU du;
-  const VF slack = hn::Add(hn::Mul(hn::Set(df, kDepthSlack), hn::Add(hn::Abs(depth), lost)),
-                           hn::Mul(hn::Set(df, kSlopeSlack * shape.reach), sum_of_magnitudes(slope_x, slope_y)));
+  const VF slack =
+      hn::Add(hn::Mul(hn::Set(df, kDepthSlack), hn::Add(hn::Abs(depth), lost)),
+              hn::Mul(hn::Set(df, kSlopeSlack * shape.reach), sum_of_magnitudes(slope_x, slope_y)));
   const VF bound = hn::IfThenElse(any, hn::Sub(depth, slack), hn::Inf(df));
   const VU slopes = hn::Or(hn::BitCast(du, slope_x), hn::ShiftRight<16>(hn::BitCast(du, slope_y)));
   const VU packed = hn::IfThenElseZero(hn::RebindMask(du, any), slopes);
@@ -143,7 +144,8 @@ void build_row(const SlantedTexel* upper, const SlantedTexel* lower, int count, 
     const VF step_x = hn::Mul(half, sx), step_y = hn::Mul(half, sy);
     VF most = zero;
     const auto least = [&](const Children& child, VF across) HWY_ATTR {
-      const VF lost = hn::Mul(half, sum_of_magnitudes(hn::Sub(child.slope_x, sx), hn::Sub(child.slope_y, sy)));
+      const VF lost =
+          hn::Mul(half, sum_of_magnitudes(hn::Sub(child.slope_x, sx), hn::Sub(child.slope_y, sy)));
       most = hn::Max(most, lost);
       return hn::Sub(hn::Add(child.depth, across), lost);  // infinite where there is nothing
     };
@@ -194,17 +196,17 @@ void SlantedPyramid::build(const Image2D<float>& depth, const Image2D<vec2>& der
   HYBRAY_CHECK_EQ(derivatives.height(), height());
   const std::vector<SlantedTexel> nothing(static_cast<size_t>(levels_[0].row), kNothing);
   const auto row_of = [&](int level, int y) {
-    return texels_.data() + first_texel(level) + static_cast<size_t>(y) * static_cast<size_t>(row_length(level));
+    return texels_.data() + first_texel(level) +
+           static_cast<size_t>(y) * static_cast<size_t>(row_length(level));
   };
   const auto shape_of = [&](int level) {
     const float side = static_cast<float>(1 << level);
-    return LevelShape{level == 0 ? 0.5f : 0.25f * side, side + static_cast<float>(std::max(width(), height())),
-                      bounds == Bounds::flat};
+    return LevelShape{level == 0 ? 0.5f : 0.25f * side,
+                      side + static_cast<float>(std::max(width(), height())), bounds == Bounds::flat};
   };
   const auto build_rows = [&](int level, int first, int last) {
     const int rows_below = height(level - 1);
-    for (int y = first; y < last; ++y)
-      HWY_DYNAMIC_DISPATCH(build_row)
+    for (int y = first; y < last; ++y) HWY_DYNAMIC_DISPATCH(build_row)
     (row_of(level - 1, 2 * y), 2 * y + 1 < rows_below ? row_of(level - 1, 2 * y + 1) : nothing.data(),
      row_length(level - 1) / 2, shape_of(level), row_of(level, y));
   };
@@ -212,8 +214,7 @@ void SlantedPyramid::build(const Image2D<float>& depth, const Image2D<vec2>& der
   const int bands = (height() + kBandRows - 1) / kBandRows;
   parallel_blocks(static_cast<size_t>(bands), 1, [&](size_t band, size_t) {
     const int first = static_cast<int>(band) * kBandRows, last = std::min(height(), first + kBandRows);
-    for (int y = first; y < last; ++y)
-      HWY_DYNAMIC_DISPATCH(build_pixels)
+    for (int y = first; y < last; ++y) HWY_DYNAMIC_DISPATCH(build_pixels)
     ({&depth(0, y), &derivatives(0, y), width(), static_cast<float>(depth_sign), background}, shape_of(0),
      row_of(0, y));
     for (int l = 1; l <= kBandLevels && l < levels(); ++l)

@@ -1,11 +1,11 @@
-// A depth pyramid of slanted lower bounds: each texel holds a plane, affine in the pixel coordinates, that lies
-// nowhere behind the planes of the pixels under it, over their whole area. Device depth is affine in 1/w, so
-// that a plane in space is a plane here, and a ray that glides along a wall or a floor stays in front of the
-// bounds of that surface, where the flat bound of DepthPyramid stops it.
+// A depth pyramid of slanted lower bounds: each texel holds a plane, affine in the pixel coordinates, that
+// lies nowhere behind the planes of the pixels under it, over their whole area. Device depth is affine in
+// 1/w, so that a plane in space is a plane here, and a ray that glides along a wall or a floor stays in front
+// of the bounds of that surface, where the flat bound of DepthPyramid stops it.
 //
 // Depths are march depths, as in DepthPyramid; background texels hold +infinity. Level l has ceil(W / 2^l) x
-// ceil(H / 2^l) texels, and texel (x, y) covers the square [x, x + 1) 2^l x [y, y + 1) 2^l of pixels, which may
-// reach beyond the screen.
+// ceil(H / 2^l) texels, and texel (x, y) covers the square [x, x + 1) 2^l x [y, y + 1) 2^l of pixels, which
+// may reach beyond the screen.
 #pragma once
 
 #include "core/base/image2d.h"
@@ -29,7 +29,8 @@ struct SlantedTexel {
 
 class SlantedPyramid {
  public:
-  // What bounds are made of: slanted planes, or flat ones, which are nowhere behind the pixels' planes either.
+  // What bounds are made of: slanted planes, or flat ones, which are nowhere behind the pixels' planes
+  // either.
   enum class Bounds { slanted, flat };
 
   // Allocates all levels for this size; contents are set by `build`.

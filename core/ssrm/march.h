@@ -9,8 +9,8 @@
 
 namespace hybray::ssrm {
 
-// Every ray, all threads. `pixels` holds each ray's own pixel (RayStream::pixel); the march starts at the exit
-// of that pixel. `results` is resized by the caller to rays.size(). Marcher `plane` needs view.slanted.
+// Every ray, all threads. `pixels` holds each ray's own pixel (RayStream::pixel); the march starts at the
+// exit of that pixel. `results` is resized by the caller to rays.size(). Marcher `plane` needs view.slanted.
 void march(const DepthView& view, const ScreenRays& rays, const std::vector<uint32_t>& pixels,
            const MarchOptions& options, MarchResults& results);
 

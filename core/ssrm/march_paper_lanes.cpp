@@ -63,9 +63,8 @@ HWY_INLINE void correct_stopped(const DepthView& view, const WaveJob& job, March
     const VHI how = hn::IfThenElseZero(hn::FirstN(di, ended.count - i), hn::LoadU(di, &ended.how[i]));
     const MHI stopped = hn::Eq(how, hn::Set(di, kStopped));
     if (hn::AllFalse(di, stopped)) continue;
-    const auto at = [&](const int32_t* field) HWY_ATTR {
-      return hn::IfThenElseZero(stopped, hn::LoadU(di, field + i));
-    };
+    const auto at = [&](const int32_t* field)
+                        HWY_ATTR { return hn::IfThenElseZero(stopped, hn::LoadU(di, field + i)); };
     const VHI index = at(reinterpret_cast<const int32_t*>(ended.ray.data()));
     const RayDouble ray(job.rays, index);
     VHI x = at(ended.x.data()), y = at(ended.y.data());
@@ -78,8 +77,7 @@ HWY_INLINE void correct_stopped(const DepthView& view, const WaveJob& job, March
     const MHI is_origin = hn::Eq(hn::Add(hn::Mul(qy, width), qx), hn::GatherIndex(di, pixels, index));
     const MHI asks = hn::AndNot(hn::Or(hit, is_origin), stopped);
     if (!hn::AllFalse(di, asks)) {
-      const PixelGap before =
-          pixel_gap(view, ray, hn::IfThenElse(asks, qx, x), hn::IfThenElse(asks, qy, y));
+      const PixelGap before = pixel_gap(view, ray, hn::IfThenElse(asks, qx, x), hn::IfThenElse(asks, qy, y));
       const MHI passes = narrow(hn::And(hn::Le(before.enter, zero), hn::Ge(before.leave, zero)));
       const MHI accepts = hn::And(asks, passes);
       x = hn::IfThenElse(accepts, qx, x);
@@ -94,7 +92,8 @@ HWY_INLINE void correct_stopped(const DepthView& view, const WaveJob& job, March
   }
 }
 
-uint64_t march_paper_block(const DepthView& view, const WaveJob& job, size_t begin, size_t end, MarchWave& wave) {
+uint64_t march_paper_block(const DepthView& view, const WaveJob& job, size_t begin, size_t end,
+                           MarchWave& wave) {
   const uint64_t steps = march_wave(job, PaperRule{view.pyramid.texels()}, begin, end, wave);
   correct_stopped(view, job, wave.ended);
   return steps;
@@ -116,11 +115,12 @@ uint64_t march_paper_lanes(const DepthView& view, const ScreenRays& rays, const 
   const WaveJob job(rays, pixels, which, view.pyramid, options);
   std::atomic<uint64_t> steps{0};
   tbb::enumerable_thread_specific<std::unique_ptr<MarchWave>> waves(std::make_unique<MarchWave>);
-  parallel_blocks(which.empty() ? rays.size() : which.size(), MarchWave::kSize, [&](size_t begin, size_t end) {
-    MarchWave& wave = *waves.local();
-    steps += HWY_DYNAMIC_DISPATCH(march_paper_block)(view, job, begin, end, wave);
-    write_results(rays, view.width(), wave.ended, results);
-  });
+  parallel_blocks(which.empty() ? rays.size() : which.size(), MarchWave::kSize,
+                  [&](size_t begin, size_t end) {
+                    MarchWave& wave = *waves.local();
+                    steps += HWY_DYNAMIC_DISPATCH(march_paper_block)(view, job, begin, end, wave);
+                    write_results(rays, view.width(), wave.ended, results);
+                  });
   return steps;
 }
 

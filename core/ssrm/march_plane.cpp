@@ -59,8 +59,8 @@ Correction continue_plane_ray(const DepthView& view, const ScreenRay<float>& ray
     const auto exit = walk.exit(level);
     const bool ends = ray.l_end <= exit.l();
     const int cell_x = walk.px >> level, cell_y = walk.py >> level;
-    if (!clear && may_be_behind(bounds.at(level, cell_x, cell_y), ray, center(cell_x, level), center(cell_y, level),
-                                walk.l, ends ? ray.l_end : exit.l())) {
+    if (!clear && may_be_behind(bounds.at(level, cell_x, cell_y), ray, center(cell_x, level),
+                                center(cell_y, level), walk.l, ends ? ray.l_end : exit.l())) {
       if (level > 0) {
         walk.descend(level--);
         samples = 0;
@@ -88,7 +88,8 @@ Correction continue_plane_ray(const DepthView& view, const ScreenRay<float>& ray
 Correction march_plane_ray(const DepthView& view, const ScreenRay<float>& ray, uint32_t pixel,
                            const MarchOptions& options, uint64_t& steps) {
   const int width = view.width();
-  CellWalk<float> walk(ray, width, view.height(), static_cast<int>(pixel) % width, static_cast<int>(pixel) / width);
+  CellWalk<float> walk(ray, width, view.height(), static_cast<int>(pixel) % width,
+                       static_cast<int>(pixel) / width);
   const auto first_exit = walk.exit(0);
   if (ray.l_end <= first_exit.l()) return {ray.end, kNoPixel};
   if (!walk.advance(first_exit)) return {Verdict::offscreen, kNoPixel};

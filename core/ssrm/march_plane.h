@@ -1,8 +1,9 @@
-// A strict marcher whose pixels are slanted planes all the way: a pixel stops a ray where, somewhere inside the
-// pixel, the ray is behind the pixel's plane. Where it enters in front and leaves behind, that is a HIT; where
-// it enters behind already, UNKNOWN (`behind`). Rays along a surface, which the paper's flat test stops, go on.
-// Slanted bounds (core/gbuffer/slanted_pyramid.h) keep whole cells clear of such surfaces, and the march goes
-// a level up where it leaves the cell of that level. Labels are those of a walk through every pixel.
+// A strict marcher whose pixels are slanted planes all the way: a pixel stops a ray where, somewhere inside
+// the pixel, the ray is behind the pixel's plane. Where it enters in front and leaves behind, that is a HIT;
+// where it enters behind already, UNKNOWN (`behind`). Rays along a surface, which the paper's flat test
+// stops, go on. Slanted bounds (core/gbuffer/slanted_pyramid.h) keep whole cells clear of such surfaces, and
+// the march goes a level up where it leaves the cell of that level. Labels are those of a walk through every
+// pixel.
 #pragma once
 
 #include "core/gbuffer/slanted_pyramid.h"
@@ -13,8 +14,8 @@
 
 namespace hybray::ssrm {
 
-// The march depth of a ray's origin, moved away from the viewer by what float code may err in comparing the ray
-// with a slanted bound: a few roundings of that depth. (Bounds make up for their own part.)
+// The march depth of a ray's origin, moved away from the viewer by what float code may err in comparing the
+// ray with a slanted bound: a few roundings of that depth. (Bounds make up for their own part.)
 inline constexpr float kOriginSlack = 0x1p-21f;
 inline float origin_with_slack(float oz) {
   return oz + kOriginSlack * std::abs(oz);
@@ -32,10 +33,10 @@ PixelCrossing pixel_crossing(const DepthView& view, const ScreenRay<double>& ray
 // A march under way, at level 0, where the ray entered pixel (x, y).
 struct PlaneMarch {
   int x, y;
-  float l;              // of the entry
-  uint64_t taken = 0;   // depth samples read so far, of a budget
-  int samples = 0;      // of this iteration (Ascent::iteration)
-  bool clear = false;   // whether the ray is known to be in front of this pixel's plane
+  float l;             // of the entry
+  uint64_t taken = 0;  // depth samples read so far, of a budget
+  int samples = 0;     // of this iteration (Ascent::iteration)
+  bool clear = false;  // whether the ray is known to be in front of this pixel's plane
 };
 Correction continue_plane_ray(const DepthView& view, const ScreenRay<float>& ray, const PlaneMarch& from,
                               const MarchOptions& options, uint64_t& steps);

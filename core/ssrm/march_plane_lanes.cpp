@@ -42,8 +42,7 @@ struct PlaneRule {
     const VF slope_y = hn::BitCast(df, hn::ShiftLeft<16>(slopes));
     const VF across = hn::Add(hn::Mul(slope_x, to_center_x), hn::Mul(slope_y, to_center_y));
     const VF bound = hn::Sub(hn::Sub(depth, p.oz), across);
-    const VF rise = hn::Sub(
-        p.dz, hn::Add(hn::Mul(slope_x, p.x.direction), hn::Mul(slope_y, p.y.direction)));
+    const VF rise = hn::Sub(p.dz, hn::Add(hn::Mul(slope_x, p.x.direction), hn::Mul(slope_y, p.y.direction)));
     return hn::Gt(hn::Max(hn::Mul(p.l, rise), hn::Mul(leave, rise)), bound);
   }
 };
@@ -56,9 +55,8 @@ HWY_INLINE void look_closer(const DepthView& view, const ScreenRays& rays, March
     const VHI how = hn::IfThenElseZero(hn::FirstN(di, ended.count - i), hn::LoadU(di, &ended.how[i]));
     const MHI stopped = hn::Eq(how, hn::Set(di, kStopped));
     if (hn::AllFalse(di, stopped)) continue;
-    const auto at = [&](const int32_t* field) HWY_ATTR {
-      return hn::IfThenElseZero(stopped, hn::LoadU(di, field + i));
-    };
+    const auto at = [&](const int32_t* field)
+                        HWY_ATTR { return hn::IfThenElseZero(stopped, hn::LoadU(di, field + i)); };
     const RayDouble ray(rays, at(reinterpret_cast<const int32_t*>(ended.ray.data())));
     const PixelGap gap = pixel_gap(view, ray, at(ended.x.data()), at(ended.y.data()));
     const VD tolerance = hn::Mul(hn::Set(d, kBufferRounding), gap.magnitude);
@@ -69,7 +67,8 @@ HWY_INLINE void look_closer(const DepthView& view, const ScreenRays& rays, March
   }
 }
 
-uint64_t march_plane_block(const DepthView& view, const WaveJob& job, size_t begin, size_t end, MarchWave& wave) {
+uint64_t march_plane_block(const DepthView& view, const WaveJob& job, size_t begin, size_t end,
+                           MarchWave& wave) {
   const SlantedTexel* texels = view.slanted->texels();
   const uint64_t steps = job.ascent == Ascent::parent
                              ? march_wave(job, PlaneRule<Ascent::parent>{texels}, begin, end, wave)
@@ -94,24 +93,26 @@ uint64_t march_plane_lanes(const DepthView& view, const ScreenRays& rays, const 
   const WaveJob job(rays, pixels, which, *view.slanted, options);
   std::atomic<uint64_t> steps{0};
   tbb::enumerable_thread_specific<std::unique_ptr<MarchWave>> waves(std::make_unique<MarchWave>);
-  parallel_blocks(which.empty() ? rays.size() : which.size(), MarchWave::kSize, [&](size_t begin, size_t end) {
-    MarchWave& wave = *waves.local();
-    uint64_t mine = HWY_DYNAMIC_DISPATCH(march_plane_block)(view, job, begin, end, wave);
-    const MarchWave::Ended& ended = wave.ended;
-    size_t cleared = write_results(rays, view.width(), ended, results);
-    // The few that a closer look clears go on as scalar code.
-    for (size_t i = 0; cleared > 0; ++i) {
-      if (ended.how[i] != kCleared) continue;
-      --cleared;
-      const uint32_t ray = ended.ray[i];
-      const PlaneMarch from{ended.x[i], ended.y[i], ended.l[i], static_cast<uint64_t>(ended.taken[i]),
-                            ended.samples[i], true};
-      const Correction c = continue_plane_ray(view, rays.get<float>(ray), from, options, mine);
-      results.verdict[ray] = c.verdict;
-      results.pixel[ray] = c.pixel;
-    }
-    steps += mine;
-  });
+  parallel_blocks(
+      which.empty() ? rays.size() : which.size(), MarchWave::kSize, [&](size_t begin, size_t end) {
+        MarchWave& wave = *waves.local();
+        uint64_t mine = HWY_DYNAMIC_DISPATCH(march_plane_block)(view, job, begin, end, wave);
+        const MarchWave::Ended& ended = wave.ended;
+        size_t cleared = write_results(rays, view.width(), ended, results);
+        // The few that a closer look clears go on as scalar code.
+        for (size_t i = 0; cleared > 0; ++i) {
+          if (ended.how[i] != kCleared) continue;
+          --cleared;
+          const uint32_t ray = ended.ray[i];
+          const PlaneMarch from{ended.x[i],       ended.y[i],
+                                ended.l[i],       static_cast<uint64_t>(ended.taken[i]),
+                                ended.samples[i], true};
+          const Correction c = continue_plane_ray(view, rays.get<float>(ray), from, options, mine);
+          results.verdict[ray] = c.verdict;
+          results.pixel[ray] = c.pixel;
+        }
+        steps += mine;
+      });
   return steps;
 }
 

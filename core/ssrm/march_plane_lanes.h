@@ -1,5 +1,5 @@
-// march_plane_ray in as many lanes as the machine has, in waves of rays: the same verdicts, pixels and steps on
-// every instruction set.
+// march_plane_ray in as many lanes as the machine has, in waves of rays: the same verdicts, pixels and steps
+// on every instruction set.
 #pragma once
 
 #include "core/ssrm/correction.h"
@@ -10,8 +10,10 @@
 
 namespace hybray::ssrm {
 
-// view.slanted must be built. The rays of `which` (empty: all), all threads; see march.h. Returns the depth samples read.
+// view.slanted must be built. The rays of `which` (empty: all), all threads; see march.h. Returns the depth
+// samples read.
 uint64_t march_plane_lanes(const DepthView& view, const ScreenRays& rays, const std::vector<uint32_t>& pixels,
-                           std::span<const uint32_t> which, const MarchOptions& options, MarchResults& results);
+                           std::span<const uint32_t> which, const MarchOptions& options,
+                           MarchResults& results);
 
 }  // namespace hybray::ssrm

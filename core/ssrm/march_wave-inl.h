@@ -5,7 +5,8 @@
 // Marchers differ in a Rule: a struct with
 //   Ascent kAscent
 //   VF depth_slack(VF oz): what is added to the depth of the origin
-//   M behind(const Packet&, VI texel, VF leave, VF to_center_x, VF to_center_y): whether a ray may be behind the
+//   M behind(const Packet&, VI texel, VF leave, VF to_center_x, VF to_center_y): whether a ray may be behind
+//   the
 //     texel between p.l and `leave`; to_center: from the ray's origin to the centre of the cell, pixels.
 #if defined(HYBRAY_MARCH_WAVE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef HYBRAY_MARCH_WAVE_INL_H_
@@ -138,8 +139,7 @@ HWY_INLINE size_t step(Packet& p, const WaveJob& job, const Rule& rule) {
   const VF to_center_y = hn::Sub(hn::Mul(hn::Add(cell_y, half), p.side), p.y.origin);
   const VI row = hn::Mul(p.y.cell, of_level(job.row, p.level));
   const VI texel = hn::Add(hn::Add(of_level(job.first_texel, p.level), p.x.cell), row);
-  const M behind =
-      rule.behind(p, hn::IfThenElseZero(as_int(p.live), texel), leave, to_center_x, to_center_y);
+  const M behind = rule.behind(p, hn::IfThenElseZero(as_int(p.live), texel), leave, to_center_x, to_center_y);
 
   const M ends = hn::Le(p.l_end, exit), ground = as_float(hn::Eq(p.level, hn::Zero(di)));
   const M intersects = hn::And(p.live, behind), clear = hn::AndNot(behind, p.live);
@@ -193,9 +193,8 @@ HWY_INLINE size_t write_back(const Packet& p, size_t at, size_t out, M here, Mar
     keep(p.samples, di, to.samples), keep(p.taken, di, to.taken);
     to.count += hn::CountTrue(df, ended);
   }
-  const auto keep = [&](auto v, auto d, auto& field) HWY_ATTR {
-    hn::StoreU(hn::Compress(v, hn::RebindMask(d, p.live)), d, &field[out]);
-  };
+  const auto keep = [&](auto v, auto d, auto& field)
+                        HWY_ATTR { hn::StoreU(hn::Compress(v, hn::RebindMask(d, p.live)), d, &field[out]); };
   keep(ray, du, w.ray), keep(p.l_end, df, w.l_end), keep(p.l, df, w.l);
   keep(p.x.origin, df, w.ox), keep(p.x.direction, df, w.dx), keep(p.x.inverse, df, w.ix);
   keep(p.y.origin, df, w.oy), keep(p.y.direction, df, w.dy), keep(p.y.inverse, df, w.iy);
@@ -279,8 +278,7 @@ HWY_INLINE uint64_t march_on(const WaveJob& job, const Rule& rule, MarchWave& w)
       size_t under_way = std::min(3 * lanes, w.count - at);
       const size_t few = 3 * under_way / 4;
       while (under_way > few) {
-        under_way =
-            step<kBudget>(a, job, rule) + step<kBudget>(b, job, rule) + step<kBudget>(c, job, rule);
+        under_way = step<kBudget>(a, job, rule) + step<kBudget>(b, job, rule) + step<kBudget>(c, job, rule);
         steps += under_way;
       }
       out = write_back(a, at, out, here_a, w);

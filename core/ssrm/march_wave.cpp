@@ -5,7 +5,7 @@ namespace {
 
 // By WaveEnd; kAtEnd has its own, and kCleared none yet.
 constexpr Verdict kVerdictOf[] = {Verdict::miss,   Verdict::budget,     Verdict::behind, Verdict::hit,
-                                 Verdict::behind, Verdict::correction, Verdict::behind};
+                                  Verdict::behind, Verdict::correction, Verdict::behind};
 
 }  // namespace
 

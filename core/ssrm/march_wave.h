@@ -34,8 +34,8 @@ struct MarchWave {
   } ended;
 };
 
-// How a march in lanes ended: at l_end, out of budget, or at a pixel whose stored depth the ray may be behind.
-// Marchers replace `stopped` by what a closer look finds.
+// How a march in lanes ended: at l_end, out of budget, or at a pixel whose stored depth the ray may be
+// behind. Marchers replace `stopped` by what a closer look finds.
 enum WaveEnd : int32_t { kAtEnd, kOutOfBudget, kStopped, kHit, kBehind, kFailed, kCleared };
 
 constexpr size_t kMostLevels = 16;  // as many as a vector of the widest machine holds
@@ -70,8 +70,8 @@ struct WaveJob {
   }
 };
 
-// Writes what became of the rays of `ended`, each at its own place; returns how many of them are kCleared, whose
-// results are still to come. `width` of the screen.
+// Writes what became of the rays of `ended`, each at its own place; returns how many of them are kCleared,
+// whose results are still to come. `width` of the screen.
 size_t write_results(const ScreenRays& rays, int width, const MarchWave::Ended& ended, MarchResults& results);
 
 }  // namespace hybray::ssrm

@@ -73,7 +73,8 @@ HWY_INLINE PixelGap pixel_gap(const DepthView& view, const RayDouble& ray, VHI p
   const VHI pixel = hn::Add(hn::Mul(py, hn::Set(DHI(), view.width())), px), pair = hn::Add(pixel, pixel);
   const float* slopes = &view.derivatives.data()->x;
   const VD sign = hn::Set(d, static_cast<double>(view.depth_sign));
-  const VD gx = hn::Mul(sign, gather_double(slopes, pair)), gy = hn::Mul(sign, gather_double(slopes + 1, pair));
+  const VD gx = hn::Mul(sign, gather_double(slopes, pair)),
+           gy = hn::Mul(sign, gather_double(slopes + 1, pair));
   const VD center = gather_double(view.pyramid.texels(), pixel);
   const VD x = hn::PromoteTo(d, px), y = hn::PromoteTo(d, py), half = hn::Set(d, 0.5);
   const VD across_x = hn::Mul(gx, hn::Sub(ray.x.origin, hn::Add(x, half)));

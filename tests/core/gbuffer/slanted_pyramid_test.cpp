@@ -48,7 +48,8 @@ Buffers random_buffers(int width, int height, int sign) {
 double bound_at(const SlantedPyramid& pyramid, int level, int x, int y, double px, double py) {
   const SlantedTexel t = pyramid.at(level, x, y);
   const double side = 1 << level;
-  return t.depth + double(t.slope_x()) * (px - (x + 0.5) * side) + double(t.slope_y()) * (py - (y + 0.5) * side);
+  return t.depth + double(t.slope_x()) * (px - (x + 0.5) * side) +
+         double(t.slope_y()) * (py - (y + 0.5) * side);
 }
 
 class SlantedPyramidSizes : public testing::TestWithParam<Size> {};
@@ -91,9 +92,10 @@ INSTANTIATE_TEST_SUITE_P(Sizes, SlantedPyramidSizes,
                                          Size{33, 31}, Size{127, 65}, Size{320, 180}),
                          testing::PrintToStringParamName());
 
-// One plane all over the screen: bounds lose only what rounding the slopes to 8 significant bits and the slack
-// take. Slopes are off by at most 2^-9 of themselves, which is lost over half a texel along each axis, once when
-// a level rounds and once when the level below differs from it; the slack adds the shares named in the source.
+// One plane all over the screen: bounds lose only what rounding the slopes to 8 significant bits and the
+// slack take. Slopes are off by at most 2^-9 of themselves, which is lost over half a texel along each axis,
+// once when a level rounds and once when the level below differs from it; the slack adds the shares named in
+// the source.
 TEST(SlantedPyramid, FollowsAPlaneAtEveryLevel) {
   constexpr int kWidth = 300, kHeight = 200;
   const dvec2 slope(-3e-4, 5e-4);

@@ -14,8 +14,8 @@ namespace {
 
 constexpr MarchOptions kPlane{.marcher = Marcher::plane};
 
-// A floor, and a wall that stands back from it at a slant, seen at a low angle: along the floor, and where rays
-// meet the wall, pixels span much depth.
+// A floor, and a wall that stands back from it at a slant, seen at a low angle: along the floor, and where
+// rays meet the wall, pixels span much depth.
 Scene floor_and_slanted_wall() {
   Scene scene = test::empty_scene();
   test::add_rectangle(scene, vec3(-10, 0, 4), vec3(20, 0, 0), vec3(0, 0, -12));

@@ -72,10 +72,16 @@ TEST_F(SsrmTest, EveryCellItFillsIsADeclaredColumn) {
   std::set<std::string> declared;
   for (const Column& column : ssrm_experiment().columns) declared.insert(column.name);
   EXPECT_EQ(declared.size(), ssrm_experiment().columns.size()) << "no name twice";
-  const Row row = run({{"repeats", int64_t{2}}}, true);
-  for (const auto& [name, value] : row) EXPECT_TRUE(declared.count(name)) << name;
-  for (const std::string& name : declared)
-    EXPECT_TRUE(row.count(name) || name == "level0_margin_ulp") << name << " is never filled";
+  for (const char* marcher : {"paper", "plane"}) {
+    const Row row = run({{"repeats", int64_t{2}}, {"marcher", std::string(marcher)}}, true);
+    for (const auto& [name, value] : row) EXPECT_TRUE(declared.count(name)) << name;
+    for (const std::string& name : declared) {
+      const bool of_plane = name == "bounds" || name == "ascent";
+      if (name != "level0_margin_ulp")
+        EXPECT_EQ(row.count(name) != 0, !of_plane || row.at("marcher") == Value(std::string("plane")))
+            << name;
+    }
+  }
 }
 
 TEST_F(SsrmTest, TimesObeyTheirOwnDefinitions) {
@@ -152,14 +158,15 @@ TEST_F(SsrmTest, ThePicturesOfVerdictsAndOfTheMainViewAreBlackWhereNoRayWasMade)
 }
 
 TEST_F(SsrmTest, VectorLanesGiveTheRowOfTheScalarMarch) {
-  for (const int64_t budget : {0, 5}) {
-    Row scalar = run({{"scene", std::string("atrium")}, {"step_budget", budget}});
-    const Row lanes = run(
-        {{"scene", std::string("atrium")}, {"step_budget", budget}, {"march_code", std::string("lanes")}});
-    EXPECT_EQ(std::get<std::string>(scalar.at("march_code")), "scalar");
-    scalar["march_code"] = std::string("lanes");
-    EXPECT_EQ(lanes, scalar);
-  }
+  for (const char* marcher : {"paper", "plane"})
+    for (const int64_t budget : {0, 5}) {
+      std::map<std::string, Value> point{
+          {"scene", std::string("atrium")}, {"step_budget", budget}, {"marcher", std::string(marcher)}};
+      Row scalar = run(point);
+      EXPECT_EQ(std::get<std::string>(scalar.at("march_code")), "scalar");
+      point["march_code"] = scalar["march_code"] = std::string("lanes");
+      EXPECT_EQ(run(point), scalar);
+    }
 }
 
 TEST_F(SsrmTest, ABudgetMovesRaysToUnknownBudget) {
