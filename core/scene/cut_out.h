@@ -26,10 +26,9 @@ namespace cut_out {
 // Largest k for which k (1 - s^2)^2 <= 1 - |s| is 27/32.
 constexpr double kReach = 0.84;
 constexpr double kTeeth = 8.0, kToothDepth = 0.25;  // teeth in one unit of s; depth of the outline's height
-constexpr double kLeaflets = 9.0, kLeafletSlant = 0.55;  // leaflets in one unit of s; tan of their slant
-constexpr double kLeafletWidth = 0.8,
-                 kLeafletTaper = 0.65;  // share of the period at the midrib; lost at the tip
-constexpr double kMidrib = 0.025;       // height of a fern's midrib
+constexpr double kLeaflets = 9.0, kLeafletSlant = 0.55;      // leaflets in one unit of s; tan of their slant
+constexpr double kLeafletWidth = 0.8, kLeafletTaper = 0.65;  // share of the period, at the midrib; its loss
+constexpr double kMidrib = 0.025;                            // height of a fern's midrib
 
 }  // namespace cut_out
 
