@@ -17,7 +17,7 @@ TEST(DearScenes, HaveTheWantedNumberOfSoundTriangles) {
   for (const Make make : {Make(foliage)})
     for (const uint32_t wanted : {uint32_t{1} << 13, uint32_t{1} << 16}) {
       const Scene scene = make({wanted, 1});
-      EXPECT_NEAR(scene.triangle_count(), wanted, 0.03 * wanted) << scene.name;
+      EXPECT_NEAR(static_cast<double>(scene.triangle_count()), wanted, 0.03 * wanted) << scene.name;
       test::expect_sound_triangles(scene);
     }
 }
