@@ -77,6 +77,7 @@ constexpr std::array kOurExtras = {
     Field{"thin_walled", Kind::boolean},
     Field{"conductor_eta", Kind::numbers, "", 3},
     Field{"conductor_k", Kind::numbers, "", 3},
+    Field{"cut_out", Kind::text},
 };
 constexpr std::array kEmissiveStrength = {Field{"emissiveStrength", Kind::number}};
 constexpr std::array kCamera = {Field{"type", Kind::text, "", 0, kRequired}, Field{"name", Kind::text},

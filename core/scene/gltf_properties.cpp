@@ -86,6 +86,11 @@ void read_our_extras(const tinygltf::Value& extras, const std::string& at, Mater
   vector("outer_absorption", to.outer_absorption);
   vector("conductor_eta", to.conductor_eta);
   vector("conductor_k", to.conductor_k);
+  if (!ours.Has("cut_out")) return;
+  const std::string& name = ours.Get("cut_out").Get<std::string>();
+  const std::optional<CutOut> shape = cut_out_named(name);
+  if (!shape) throw InputError(at + "/cut_out", fmt::format("'{}' is not none, leaf or fern", name));
+  to.cut_out = *shape;
 }
 
 vec3 unit(const dvec3& v) {

@@ -14,8 +14,8 @@ namespace hybray {
 // KHR_materials_ior, _transmission and _volume: absorption = -ln(attenuationColor) / attenuationDistance, and
 // a transmitting material without a thickness is thin_walled. What glTF has no words for stands in the
 // material's extras, as {"hybray": {...}} with the keys outer_ior, absorption, outer_absorption, thin_walled,
-// conductor_eta and conductor_k; they win over the extensions. Throws InputError for a factor outside its
-// range (rounding errors of exporters are forgiven).
+// conductor_eta, conductor_k and cut_out; they win over the extensions. Throws InputError for a factor
+// outside its range (rounding errors of exporters are forgiven).
 Material read_material(const GltfFile& file, size_t material);
 
 // What a primitive without a material is made of (glTF 2.0 specification, section 3.9): all factors at their

@@ -103,6 +103,7 @@ tinygltf::Value our_extras(const Material& from) {
   vector("outer_absorption", from.outer_absorption);
   vector("conductor_eta", from.conductor_eta);
   vector("conductor_k", from.conductor_k);
+  if (from.cut_out != CutOut::none) ours["cut_out"] = tinygltf::Value(std::string(label(from.cut_out)));
   if (ours.empty()) return {};
   return tinygltf::Value(tinygltf::Value::Object{{"hybray", tinygltf::Value(ours)}});
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/base/vec.h"
+#include "core/scene/cut_out.h"
 
 #include <string>
 
@@ -25,6 +26,7 @@ struct Material {
   vec3 conductor_eta{0.0f};  // complex index of refraction of a metal, eta + i k, by channel. Where both are
   vec3 conductor_k{0.0f};    // zero its reflectance is base_color at every angle
   vec3 emissive{0.0f};       // emitted radiance, W / (sr m^2)
+  CutOut cut_out = CutOut::none;  // which parts of each triangle are there
 };
 
 }  // namespace hybray

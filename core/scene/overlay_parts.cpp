@@ -30,7 +30,7 @@ Material overlay_material(const json& value, const std::string& file, const std:
   const JsonObject object(
       value, file, pointer,
       {"base_color", "metallic", "roughness", "transmission", "ior", "outer_ior", "absorption",
-       "outer_absorption", "thin_walled", "conductor_eta", "conductor_k", "emissive"});
+       "outer_absorption", "thin_walled", "conductor_eta", "conductor_k", "emissive", "cut_out"});
   constexpr Range kUnit{0.0, 1.0}, kIndex{1.0, 100.0}, kNotNegative{0.0, kLargest};
   Material material = base;
   material.base_color = object.vector("base_color", base.base_color, kUnit);
@@ -45,6 +45,11 @@ Material overlay_material(const json& value, const std::string& file, const std:
   material.conductor_eta = object.vector("conductor_eta", base.conductor_eta, kNotNegative);
   material.conductor_k = object.vector("conductor_k", base.conductor_k, kNotNegative);
   material.emissive = object.vector("emissive", base.emissive, kNotNegative);
+  if (object.has("cut_out")) {
+    const std::optional<CutOut> shape = cut_out_named(object.text("cut_out"));
+    if (!shape) object.fail("cut_out", fmt::format("'{}' is not none, leaf or fern", object.text("cut_out")));
+    material.cut_out = *shape;
+  }
   return material;
 }
 

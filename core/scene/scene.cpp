@@ -113,6 +113,10 @@ void update_content_hash(Scene& scene) {
     h = hash_values(h, m.base_color, m.metallic, m.roughness, m.transmission, m.ior, m.outer_ior,
                     m.absorption, m.outer_absorption, m.thin_walled, m.conductor_eta, m.conductor_k,
                     m.emissive);
+  // Scenes without cut-outs keep the hash that they had before there were any.
+  for (size_t i = 0; i < scene.materials.size(); ++i)
+    if (scene.materials[i].cut_out != CutOut::none)
+      h = hash_values(hash_text("cut-out", h), i, scene.materials[i].cut_out);
   for (const Light& l : scene.lights)
     h = hash_values(h, l.kind, l.position, l.direction, l.color, l.intensity, l.inner_cone_angle,
                     l.outer_cone_angle, l.range);

@@ -47,6 +47,10 @@ struct Scene {
   uint32_t material_of(uint32_t primitive) const {
     return is_analytic(primitive) ? analytic_surface(primitive).material : triangle_material[primitive];
   }
+  // Whether parts of a triangle are cut out.
+  bool is_cut_out(uint32_t triangle) const {
+    return materials[triangle_material[triangle]].cut_out != CutOut::none;
+  }
 };
 
 // `mesh` moved by `transform` (affine, with an inverse): computed in double, normals by the inverse

@@ -1,6 +1,7 @@
 #include "core/base/check.h"
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "core/tracer/cut_out_filter.h"
 #include "core/tracer/embree_query.h"
 #include "core/tracer/tracer.h"
 #include "core/tracer/user_geometry.h"
@@ -52,18 +53,43 @@ struct Tracer::Impl {
       throw RuntimeError(fmt::format("Embree could not {}: error {}{}", what, static_cast<int>(code),
                                      code == RTC_ERROR_OUT_OF_MEMORY ? " (out of memory)" : ""));
   }
+  // All geometries of triangles read the same vertices. Embree reads each as 16 bytes: a shared buffer of
+  // 12-byte vertices would be read past its end, so it gets a copy.
   void attach_triangles() {
-    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    // Embree reads each vertex as 16 bytes: a shared buffer of 12-byte vertices would be read past its end,
-    // so it gets a copy.
+    RTCGeometry whole = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* vertices = static_cast<float*>(
-        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3),
+        rtcSetNewGeometryBuffer(whole, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(vec3),
                                 std::max<size_t>(1, scene->positions.size())));
-    auto* indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(uvec3), scene->triangles.size()));
+    uvec3* indices = new_indices(whole);
     check("allocate the geometry");
     std::copy_n(&scene->positions.data()->x, 3 * scene->positions.size(), vertices);
-    std::copy_n(&scene->triangles.data()->x, 3 * scene->triangles.size(), indices);
+    std::copy_n(scene->triangles.data(), scene->triangles.size(), indices);
+
+    // Triangles with cut-outs are a geometry of their own, so that the others meet no filter. Each keeps its
+    // place in the list, and so its id: Embree leaves out a triangle whose vertices do not exist.
+    size_t cut_outs = 0;
+    for (uint32_t t = 0; t < scene->triangles.size(); ++t) cut_outs += scene->is_cut_out(t);
+    if (cut_outs > 0) {
+      RTCGeometry cut = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+      rtcSetSharedGeometryBuffer(cut, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, vertices, 0, sizeof(vec3),
+                                 scene->positions.size());
+      uvec3* cut_indices = new_indices(cut);
+      check("allocate the geometry of cut-outs");
+      constexpr uvec3 kNoTriangle(0xffffffffu);
+      for (uint32_t t = 0; t < scene->triangles.size(); ++t) {
+        cut_indices[t] = kNoTriangle;
+        if (scene->is_cut_out(t)) std::swap(cut_indices[t], indices[t]);
+      }
+      embree::filter_cut_outs(cut, *scene);
+      attach(cut);
+    }
+    attach(whole);
+  }
+  uvec3* new_indices(RTCGeometry geometry) const {
+    return static_cast<uvec3*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                                       sizeof(uvec3), scene->triangles.size()));
+  }
+  void attach(RTCGeometry geometry) const {
     rtcSetGeometryMask(geometry, kAllMask);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(rtc, geometry);

@@ -10,11 +10,13 @@
 namespace hybray::procedural {
 
 std::span<const Generator> generators() {
-  static constexpr std::array<Generator, 10> kGenerators{{
+  static constexpr std::array<Generator, 11> kGenerators{{
       {"atrium", "two-storey colonnaded hall with arches, vaults, drapes and a gallery, 30 m long",
        uint32_t{1} << 18, atrium},
       {"atrium_lamps", "the atrium by night, with 8 lamps in sight and 8 out of it, by glass and metal",
        uint32_t{3} << 17, atrium_lamps},
+      {"foliage", "clearing among trees, bushes and ferns whose leaves are cut out by masks",
+       uint32_t{3} << 17, foliage},
       {"glass_ball", "solid glass ball above a matte floor, with a point light", uint32_t{1} << 15,
        glass_ball},
       {"metal_ring", "polished gold and silver rings on a table", uint32_t{1} << 15, metal_ring},

@@ -31,6 +31,9 @@ Scene sphere(const Parameters& parameters);
 Scene atrium(const Parameters& parameters);
 Scene street(const Parameters& parameters);
 
+// Geometry on which a ray is dear.
+Scene foliage(const Parameters& parameters);  // leaves cut out by masks
+
 // Scenes made for caustics: matte ground that light through glass and water, or off metal, is thrown on. All
 // bodies close.
 Scene atrium_lamps(const Parameters& parameters);

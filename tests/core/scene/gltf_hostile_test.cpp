@@ -334,6 +334,8 @@ TEST_F(GltfHostile, ExtrasOfOursThatCannotBeAreRefused) {
   refuse_extra("thin_walled", 1, "true or false");
   refuse_extra("conductor_eta", "gold", "array of 3 numbers");
   refuse_extra("conductor_k", json::array({-1, 0, 0}), "below 0");
+  refuse_extra("cut_out", "maple", "'maple' is not none, leaf or fern");
+  refuse_extra("cut_out", 1, "not a string");
   refuse_extra("colour", 1, "unknown key");
   refuse("/materials/0/extras/hybray", "not an object",
          [](json& d) { d["materials"][0]["extras"]["hybray"] = 3; });

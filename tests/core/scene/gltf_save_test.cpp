@@ -29,6 +29,7 @@ TEST_F(GltfSave, SavingAndLoadingKeepsEveryBitOfTrianglesAndMaterials) {
        .outer_absorption = vec3(0.1f, 0.0f, 0.3f)},
       {.name = "pane", .transmission = 0.5f, .absorption = vec3(0.3f), .thin_walled = true},
       {.name = "gauze", .thin_walled = true},
+      {.name = "frond", .cut_out = CutOut::fern},
       {.name = "gold",
        .metallic = 1.0f,
        .conductor_eta = vec3(0.21f, 0.43f, 1.38f),
@@ -71,6 +72,7 @@ TEST_F(GltfSave, SavingAndLoadingKeepsEveryBitOfTrianglesAndMaterials) {
     EXPECT_EQ(again.materials[m].conductor_eta, scene.materials[m].conductor_eta);
     EXPECT_EQ(again.materials[m].conductor_k, scene.materials[m].conductor_k);
     EXPECT_EQ(again.materials[m].emissive, scene.materials[m].emissive);
+    EXPECT_EQ(again.materials[m].cut_out, scene.materials[m].cut_out);
   }
   ASSERT_EQ(again.objects.size(), 2u);
   EXPECT_EQ(again.objects[1].name, "second");

@@ -83,13 +83,14 @@ TEST_F(Overlay, MediaAndMetalsAreGivenAndWhatIsNotGivenStays) {
   json overlay = sample();
   overlay["materials"]["paint"] =
       json::parse(R"({"outer_ior": 1.5, "absorption": [1, 2, 3], "outer_absorption": [0, 0.5, 0],
-                      "thin_walled": true, "conductor_eta": [0.2, 0.4, 1.4], "conductor_k": [3.5, 2.5, 2]})");
+                      "thin_walled": true, "cut_out": "leaf", "conductor_eta": [0.2, 0.4, 1.4], "conductor_k": [3.5, 2.5, 2]})");
   const Material material = load(overlay).materials[0];
   EXPECT_EQ(material.ior, 1.5f);
   EXPECT_EQ(material.outer_ior, 1.5f);
   EXPECT_EQ(material.absorption, vec3(1, 2, 3));
   EXPECT_EQ(material.outer_absorption, vec3(0, 0.5f, 0));
   EXPECT_TRUE(material.thin_walled);
+  EXPECT_EQ(material.cut_out, CutOut::leaf);
   EXPECT_EQ(material.conductor_eta, vec3(0.2f, 0.4f, 1.4f));
   EXPECT_EQ(material.conductor_k, vec3(3.5f, 2.5f, 2.0f));
   const Material plain = load(sample()).materials[0];
@@ -114,6 +115,7 @@ TEST_F(Overlay, MediaThatCannotBeAreRefused) {
   refuse_value("conductor_eta", json::array({-0.1, 0, 0}), "not between 0");
   refuse_value("conductor_k", json::array({"1", 0, 0}), "array of three numbers");
   refuse_value("thin_walled", 1, "true or false");
+  refuse_value("cut_out", "maple", "'maple' is not none, leaf or fern");
   refuse_value("thin_waled", true, "did you mean 'thin_walled'?");
 }
 

@@ -106,6 +106,7 @@ TEST(Scene, TheContentHashChangesWithEveryPartThatMatters) {
   EXPECT_TRUE(changed([](Scene& s) { s.materials[1].thin_walled = true; }));
   EXPECT_TRUE(changed([](Scene& s) { s.materials[1].conductor_eta.x = 0.2f; }));
   EXPECT_TRUE(changed([](Scene& s) { s.materials[1].conductor_k.x = 0.2f; }));
+  EXPECT_TRUE(changed([](Scene& s) { s.materials[0].cut_out = CutOut::leaf; }));
   EXPECT_TRUE(changed([](Scene& s) { s.lights[0].intensity = 2.0f; }));
   EXPECT_TRUE(changed([](Scene& s) { s.cameras[0].vertical_fov = 61.0f; }));
 }
