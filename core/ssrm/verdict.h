@@ -7,7 +7,7 @@
 
 namespace hybray::ssrm {
 
-// HIT, MISS, or UNKNOWN with the first event that ended the march.
+// HIT, MISS, or UNKNOWN with the first event that ended the march, or the check that undid its HIT.
 enum class Verdict : uint8_t {
   hit,   // passed the slanted-plane test of the accepted pixel
   miss,  // in front of all stored depth, at pixel centres, until it left the scene's bounds inside the view
@@ -16,8 +16,9 @@ enum class Verdict : uint8_t {
   behind,      // already behind the failing pixel's slanted plane where it enters that pixel
   correction,  // any other failed correction
   budget,      // step budget exhausted
+  rejected,    // a HIT that failed a check after the march (hit_checks.h)
 };
-constexpr int kVerdicts = 7;
+constexpr int kVerdicts = 8;
 const char* label(Verdict verdict);
 
 constexpr bool is_unknown(Verdict v) {
