@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace hybray::ssrm {
@@ -25,13 +26,16 @@ constexpr bool is_unknown(Verdict v) {
   return v > Verdict::miss;
 }
 
+constexpr float kNoDistance = std::numeric_limits<float>::infinity();
 constexpr uint32_t kNoPixel = 0xffffffffu;  // the paper's (-1, -1)
 
 // One result for each ray, in the order of the rays.
 struct MarchResults {
   std::vector<Verdict> verdict;
   std::vector<uint32_t> pixel;  // row-major index of the accepted pixel of a HIT, else kNoPixel
-  uint64_t steps = 0;           // depth samples read, all rays together
+  std::vector<float> distance;  // metres, where a HIT lies by who found or checked it; not finite, or the
+                                // list empty: where the ray meets the accepted pixel's plane
+  uint64_t steps = 0;  // depth samples read, all rays together
 
   void resize(size_t n) {
     verdict.resize(n);
