@@ -8,8 +8,8 @@ namespace hybray::ssrm {
 
 enum class HitCheck : uint8_t {
   none,
-  triangle,      // the ray meets the primitive that the accepted pixel, or else one of its 8 neighbours, stores
-  continuity,    // no neighbour of the accepted pixel shows a surface in front that does not join its own
+  triangle,    // the ray meets the primitive that the accepted pixel, or else one of its 8 neighbours, stores
+  continuity,  // no neighbour of the accepted pixel shows a surface in front that does not join its own
   conservative,  // the ray is in front of all surfaces beside its path, continued by half a pixel
   strict,        // triangle, the primitives beside the path, and what of `conservative` they do not explain
 };

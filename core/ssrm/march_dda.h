@@ -1,6 +1,6 @@
-// The linear marcher with a thickness: a perspective-correct DDA over the screen that takes every stored depth
-// for a slab (McGuire and Mara, "Efficient GPU Screen-Space Ray Tracing", JCGT 3(4), 2014). Own code from the
-// paper. A heuristic: a ray inside a slab is a hit, whether or not the surface is that thick.
+// The linear marcher with a thickness: a perspective-correct DDA over the screen that takes every stored
+// depth for a slab (McGuire and Mara, "Efficient GPU Screen-Space Ray Tracing", JCGT 3(4), 2014). Own code
+// from the paper. A heuristic: a ray inside a slab is a hit, whether or not the surface is that thick.
 #pragma once
 
 #include "core/gbuffer/view.h"
@@ -9,9 +9,9 @@
 namespace hybray::ssrm {
 
 struct DdaOptions {
-  double thickness = 0.1;   // metres of view depth behind each stored depth, > 0
-  double stride = 1.0;      // pixels along the ray's longer screen axis between samples, >= 1
-  uint64_t max_steps = 0;   // samples a ray may read; 0: as many as reach across the screen
+  double thickness = 0.1;  // metres of view depth behind each stored depth, > 0
+  double stride = 1.0;     // pixels along the ray's longer screen axis between samples, >= 1
+  uint64_t max_steps = 0;  // samples a ray may read; 0: as many as reach across the screen
 };
 
 // Samples at 1, 2, ... strides from the origin along the longer axis. Sample n stands for the ray from half a

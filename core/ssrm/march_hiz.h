@@ -12,9 +12,9 @@
 namespace hybray::ssrm {
 
 struct HizOptions {
-  double thickness = 0.1;    // metres between the hit and the surface at which confidence reaches 0, > 0
-  double confidence = 0.1;   // least confidence of a HIT, in [0, 1]
-  uint64_t max_steps = 0;    // cells a ray may read; 0: as many as it needs (it always ends)
+  double thickness = 0.1;   // metres between the hit and the surface at which confidence reaches 0, > 0
+  double confidence = 0.1;  // least confidence of a HIT, in [0, 1]
+  uint64_t max_steps = 0;   // cells a ray may read; 0: as many as it needs (it always ends)
 };
 
 // Where the traversal stopped: inside `pixel`, at screen parameter l, on or behind the stored depth.
@@ -26,8 +26,9 @@ struct HizCandidate {
 HizCandidate hiz_traverse(const DepthView& view, const ScreenRay<float>& ray, uint32_t origin,
                           const HizOptions& options, uint64_t& steps);
 
-// Confidence in [0, 1] of a candidate of ray i: 0 within two pixels of the ray's own pixel and on surfaces seen
-// from behind; else the square of a smooth fall over the thickness, faded over the outer 5 % of the screen.
+// Confidence in [0, 1] of a candidate of ray i: 0 within two pixels of the ray's own pixel and on surfaces
+// seen from behind; else the square of a smooth fall over the thickness, faded over the outer 5 % of the
+// screen.
 double hiz_confidence(const GBuffer& gbuffer, const RayStream& world, size_t i, const ScreenRay<float>& ray,
                       const HizCandidate& candidate, double thickness);
 

@@ -46,7 +46,8 @@ struct CellSearch {
       if (!(gap.at(enter) <= 0.0 && gap.at(leave) > 0.0)) return;
       const View& view = surfaces.gbuffer.view;
       if (with_primitives) {
-        const auto t = primitive_hit(surfaces.scene, primitive, dvec3(rays.origin(i)), dvec3(rays.direction(i)));
+        const auto t =
+            primitive_hit(surfaces.scene, primitive, dvec3(rays.origin(i)), dvec3(rays.direction(i)));
         if (t) {
           if (!found.met || *t < found.met->distance)
             found.met = {*t, static_cast<uint32_t>(ny) * static_cast<uint32_t>(depth.width()) +
@@ -87,7 +88,8 @@ DepthPyramid neighbourhood_pyramid(const DepthView& depth) {
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
       for (int x = 0; x < w; ++x) {
         double least = kInfinity;
-        for_neighbours(depth, x, y, [&](int nx, int ny) { least = std::min(least, reach(depth, nx, ny, x, y)); });
+        for_neighbours(depth, x, y,
+                       [&](int nx, int ny) { least = std::min(least, reach(depth, nx, ny, x, y)); });
         if (least < kInfinity) nearest(x, y) = std::nextafter(static_cast<float>(least), -kInfinity);
       }
   });

@@ -38,14 +38,14 @@ struct PathFindings {
   // The first primitive stored beside the path that the ray truly meets. Only where primitives are asked for.
   std::optional<SurfaceCrossing> met;
   // Metres; the first place before that where the ray passes behind the plane of a pixel within one pixel of
-  // that pixel's centre, although it does not meet its primitive (or that was not asked), and the surface there
-  // does not join the one that the ray's pixel shows.
+  // that pixel's centre, although it does not meet its primitive (or that was not asked), and the surface
+  // there does not join the one that the ray's pixel shows.
   std::optional<double> doubtful;
   uint64_t steps = 0;  // texels read of the neighbourhood pyramid
 };
 
-// Ray `i` from its own pixel up to screen parameter `l_end`. `with_primitives` tests the primitive behind each
-// plane that the ray passes; without, every plane so passed is doubtful.
+// Ray `i` from its own pixel up to screen parameter `l_end`. `with_primitives` tests the primitive behind
+// each plane that the ray passes; without, every plane so passed is doubtful.
 PathFindings search_path(const SurfaceView& surfaces, const DepthPyramid& neighbourhood,
                          const RayStream& rays, const ScreenRays& screen_rays, size_t i, double l_end,
                          bool with_primitives);

@@ -35,7 +35,7 @@ struct MarchResults {
   std::vector<uint32_t> pixel;  // row-major index of the accepted pixel of a HIT, else kNoPixel
   std::vector<float> distance;  // metres, where a HIT lies by who found or checked it; not finite, or the
                                 // list empty: where the ray meets the accepted pixel's plane
-  uint64_t steps = 0;  // depth samples read, all rays together
+  uint64_t steps = 0;           // depth samples read, all rays together
 
   void resize(size_t n) {
     verdict.resize(n);

@@ -21,14 +21,16 @@ std::vector<Parameter> parameters() {
       p.end(),
       {
           choice("marcher", "paper", {"paper", "level0", "dda", "hiz"},
-                 "Screen-space marcher: the strict hierarchical one, the exhaustive one in double precision, the "
+                 "Screen-space marcher: the strict hierarchical one, the exhaustive one in double precision, "
+                 "the "
                  "linear one with a thickness, the hierarchical one with thickness and confidence."),
           choice("check", "none",
                  {label(HitCheck::none), label(HitCheck::triangle), label(HitCheck::continuity),
                   label(HitCheck::conservative), label(HitCheck::strict)},
                  "Check of the HITs after the march."),
           number("thickness", "m", 0.1, 1e-6, 1e9,
-                 "How far behind a stored depth a ray may be and hit it (dda), or at what distance from the surface "
+                 "How far behind a stored depth a ray may be and hit it (dda), or at what distance from the "
+                 "surface "
                  "confidence reaches 0 (hiz)."),
           number("stride", "px", 1.0, 1.0, 1024.0, "Pixels between the samples of dda."),
           number("confidence", "", 0.1, 0.0, 1.0, "Least confidence of a HIT of hiz."),
@@ -58,26 +60,27 @@ std::vector<Column> columns() {
              key("footprint_factor", "k of the tolerance"),
          });
   add_verdict_columns(c);
-  add(c, {
-             share_of_rays("alpha_unchecked", none, "HITs before the check / rays"),
-             share_of_rays("rejected_right_fraction", lower, "right HITs that the check rejected / rays"),
-             share_of_rays("precision_own_depth", higher,
-                           "precision where a HIT lies at the marcher's own depth instead of the pixel's plane"),
-             {"steps_per_ray",
-              "1",
-              ColumnKind::metric,
-              lower,
-              "depth samples read in the march / rays",
-              {},
-              {0.0, 10 * kMovedRays}},
-             {"check_steps_per_hit",
-              "1",
-              ColumnKind::metric,
-              lower,
-              "samples of the neighbourhood pyramid read by the check / HITs before it",
-              {},
-              {0.0, 10 * kMovedRays}},
-         });
+  add(c,
+      {
+          share_of_rays("alpha_unchecked", none, "HITs before the check / rays"),
+          share_of_rays("rejected_right_fraction", lower, "right HITs that the check rejected / rays"),
+          share_of_rays("precision_own_depth", higher,
+                        "precision where a HIT lies at the marcher's own depth instead of the pixel's plane"),
+          {"steps_per_ray",
+           "1",
+           ColumnKind::metric,
+           lower,
+           "depth samples read in the march / rays",
+           {},
+           {0.0, 10 * kMovedRays}},
+          {"check_steps_per_hit",
+           "1",
+           ColumnKind::metric,
+           lower,
+           "samples of the neighbourhood pyramid read by the check / HITs before it",
+           {},
+           {0.0, 10 * kMovedRays}},
+      });
   add_time(c, "march", "march of all rays; dda, hiz and level0 are scalar code, paper is in vector lanes");
   add_time(c, "neighbourhood", "neighbourhood pyramid of the check");
   add_time(c, "check", "check of all HITs, with a fresh copy of the verdicts");
@@ -102,11 +105,10 @@ double cost_seconds(const Point& point, const SceneFacts& scene) {
   const double pixels = static_cast<double>(size.width) * size.height;
   const double frame = (0.3e-6 + 0.02e-6 * std::log2(static_cast<double>(scene.triangles) + 2.0)) * pixels;
   const std::string& marcher = point.text("marcher");
-  const double per_pixel = marcher == "level0" ? 0.7e-9 * size.width
-                           : marcher == "dda"  ? 0.5e-6
-                                               : 0.15e-6;
+  const double per_pixel = marcher == "level0" ? 0.7e-9 * size.width : marcher == "dda" ? 0.5e-6 : 0.15e-6;
   const double check = point.text("check") == "none" ? 0.0 : 0.2e-6;
-  return frame + (static_cast<double>(point.integer("repeats")) + 2.0) * (per_pixel + check + 0.04e-6) * pixels;
+  return frame +
+         (static_cast<double>(point.integer("repeats")) + 2.0) * (per_pixel + check + 0.04e-6) * pixels;
 }
 
 std::vector<SharedCost> shared_costs(const Point& point, const SceneFacts& scene) {

@@ -65,7 +65,8 @@ const Marcher& marcher_of(const Point& point) {
 }
 
 HitCheck check_of(const Point& point) {
-  for (const HitCheck check : {HitCheck::triangle, HitCheck::continuity, HitCheck::conservative, HitCheck::strict})
+  for (const HitCheck check :
+       {HitCheck::triangle, HitCheck::continuity, HitCheck::conservative, HitCheck::strict})
     if (point.text("check") == label(check)) return check;
   return HitCheck::none;
 }
@@ -140,7 +141,8 @@ Row run(const Point& point, Workspace& workspace) {
   marched.resize(rays);
   marcher.march(point, frame, marched);
   row["steps_per_ray"] = share(marched.steps, rays);
-  // What is compared is where the pixel's plane puts a HIT, for every marcher; its own depth is judged beside.
+  // What is compared is where the pixel's plane puts a HIT, for every marcher; its own depth is judged
+  // beside.
   const bool own_depth = !marched.distance.empty();
   if (own_depth) {
     const metrics::VerdictTable own = judged(point, setup, shared, marched);
@@ -153,8 +155,8 @@ Row run(const Point& point, Workspace& workspace) {
   if (check != HitCheck::none) {
     std::optional<DepthPyramid> neighbourhood;
     if (needs_neighbourhood(check)) neighbourhood = ssrm::neighbourhood_pyramid(depth);
-    const ssrm::CheckCounts counts = check_hits(surfaces, neighbourhood ? &*neighbourhood : nullptr, frame.rays(),
-                                                frame.screen_rays, check, results);
+    const ssrm::CheckCounts counts = check_hits(surfaces, neighbourhood ? &*neighbourhood : nullptr,
+                                                frame.rays(), frame.screen_rays, check, results);
     if (neighbourhood) row["check_steps_per_hit"] = share(counts.steps, counts.checked);
   }
   add_verdict_cells(row, judged(point, setup, shared, results, &after));
