@@ -34,7 +34,8 @@ TEST(PrimitiveHit, TheNearestOverAllPrimitivesIsWhatTheTracerFinds) {
     }
     const Hit traced = tracer.intersect(origin, direction);
     // The tracer works in float: a ray within rounding of an edge may fall on either side of it.
-    if (traced.valid() != nearest.has_value() || (nearest && std::abs(traced.t - *nearest) > 1e-4 * *nearest)) {
+    if (traced.valid() != nearest.has_value() ||
+        (nearest && std::abs(traced.t - *nearest) > 1e-4 * *nearest)) {
       ++edge_cases;
       continue;
     }

@@ -209,7 +209,8 @@ TEST(NeighbourhoodPyramid, ItsTexelsAreNearestOverAllThreeByThreePlanesAtThePixe
             for (const double cx : {-0.5, 0.5})
               for (const double cy : {-0.5, 0.5}) {
                 const dvec2 d = double(depth.depth_sign) * dvec2(depth.derivatives(nx, ny));
-                nearest = std::min(nearest, depth.pyramid.at(0, nx, ny) + d.x * (x + cx - nx) + d.y * (y + cy - ny));
+                nearest = std::min(nearest,
+                                   depth.pyramid.at(0, nx, ny) + d.x * (x + cx - nx) + d.y * (y + cy - ny));
               }
         const double stored = pyramid.at(0, x, y);
         if (std::isinf(nearest)) {

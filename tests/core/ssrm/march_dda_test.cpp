@@ -54,7 +54,8 @@ Verdict walk_in_the_world(const test::MainView& v, size_t i, const DdaOptions& o
       for (const double gap : {high - surface, surface + options.thickness - low})
         margin = std::min(margin, std::abs(gap));
       pixel = static_cast<uint32_t>(y * view.width() + x);
-      if (high >= surface && low <= surface + options.thickness && pixel != v.rays.pixel[i]) return Verdict::hit;
+      if (high >= surface && low <= surface + options.thickness && pixel != v.rays.pixel[i])
+        return Verdict::hit;
     }
     before = after;
   }
@@ -64,8 +65,8 @@ TEST(MarchDda, EqualsAWalkAlongTheWorldRay) {
   const Scene scene = test::triangle_soup(80, 1.2f, 2.0f, kSeed);
   const Tracer tracer(scene, {.robust = true});
   for (const DepthConvention convention : {DepthConvention::standard, DepthConvention::reversed}) {
-    const View view(Camera{"c", vec3(0, 0, 5), vec3(0)}, {.width = 333, .height = 217, .convention = convention},
-                    scene.bounds);
+    const View view(Camera{"c", vec3(0, 0, 5), vec3(0)},
+                    {.width = 333, .height = 217, .convention = convention}, scene.bounds);
     const test::MainView v(tracer, view);
     for (const DdaOptions& options : {DdaOptions{0.05, 1.0}, DdaOptions{0.5, 1.0}, DdaOptions{0.2, 3.0}}) {
       const MarchResults results = march(v, options);
@@ -142,7 +143,8 @@ TEST(MarchDda, ABudgetEndsInBudgetAndStridesSaveSteps) {
   const Scene scene = floor_and_wall();
   const Tracer tracer(scene, {.robust = true});
   const test::MainView v(tracer, View(kBeforeTheWall, {.width = 160, .height = 100}, scene.bounds));
-  const MarchResults bounded = march(v, {0.1, 1.0, 5}), fine = march(v, {0.1, 1.0}), coarse = march(v, {0.1, 4.0});
+  const MarchResults bounded = march(v, {0.1, 1.0, 5}), fine = march(v, {0.1, 1.0}),
+                     coarse = march(v, {0.1, 4.0});
   EXPECT_GT(std::count(bounded.verdict.begin(), bounded.verdict.end(), Verdict::budget), 1000);
   EXPECT_LE(bounded.steps, 5 * v.rays.size());
   EXPECT_EQ(std::count(fine.verdict.begin(), fine.verdict.end(), Verdict::budget), 0);

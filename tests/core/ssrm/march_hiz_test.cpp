@@ -28,7 +28,8 @@ struct NormalView {
   }
 };
 
-// The first pixel after the ray's own in which the ray gets behind the stored depth: pixel by pixel, in double.
+// The first pixel after the ray's own in which the ray gets behind the stored depth: pixel by pixel, in
+// double.
 HizCandidate linear_search(const test::MainView& v, size_t i) {
   const auto ray = v.screen_rays.get<double>(i);
   const int width = v.gbuffer.view.width(), height = v.gbuffer.view.height();
@@ -53,11 +54,13 @@ TEST(MarchHiz, TheHierarchyStopsWhereALinearSearchStops) {
   const Scene scene = test::triangle_soup(80, 1.2f, 2.0f, kSeed);
   const Tracer tracer(scene, {.robust = true});
   for (const auto& [w, h] : {std::pair{333, 217}, {64, 1}, {1, 1}}) {
-    const test::MainView v(tracer, View(Camera{"c", vec3(0, 0, 5), vec3(0)}, {.width = w, .height = h}, scene.bounds));
+    const test::MainView v(
+        tracer, View(Camera{"c", vec3(0, 0, 5), vec3(0)}, {.width = w, .height = h}, scene.bounds));
     size_t different = 0, hits = 0;
     uint64_t steps = 0;
     for (size_t i = 0; i < v.rays.size(); ++i) {
-      const HizCandidate found = hiz_traverse(v.depth(), v.screen_rays.get<float>(i), v.rays.pixel[i], {}, steps);
+      const HizCandidate found =
+          hiz_traverse(v.depth(), v.screen_rays.get<float>(i), v.rays.pixel[i], {}, steps);
       const HizCandidate expected = linear_search(v, i);
       if (found.verdict != expected.verdict || found.pixel != expected.pixel) {
         ++different;
@@ -80,14 +83,15 @@ TEST(MarchHiz, TheHierarchyStopsWhereALinearSearchStops) {
 }
 
 TEST(MarchHiz, HitsAreTheCandidatesOfTheLinearSearchWithinTheThickness) {
-  // A wall before a mirror floor: candidates on the wall lie on it to within a pixel's slope, those behind the
-  // board as far behind it as the closed form says.
+  // A wall before a mirror floor: candidates on the wall lie on it to within a pixel's slope, those behind
+  // the board as far behind it as the closed form says.
   Scene scene = test::empty_scene();
   test::add_rectangle(scene, vec3(-10, 0, 4), vec3(20, 0, 0), vec3(0, 0, -12));
   test::add_rectangle(scene, vec3(-10, 0, -8), vec3(20, 0, 0), vec3(0, 12, 0));
   test::add_rectangle(scene, vec3(-1, 1.0f, -3), vec3(2, 0, 0), vec3(0, 1.0f, 0));
   const Tracer tracer(scene, {.robust = true});
-  const View view(Camera{"c", vec3(0, 2, 3.5f), vec3(0, 1.5f, -8)}, {.width = 320, .height = 200}, scene.bounds);
+  const View view(Camera{"c", vec3(0, 2, 3.5f), vec3(0, 1.5f, -8)}, {.width = 320, .height = 200},
+                  scene.bounds);
   const NormalView v(tracer, view);
   const double thickness = 0.5;
   const MarchResults results = v.march({thickness, 1e-6});
@@ -107,7 +111,8 @@ TEST(MarchHiz, HitsAreTheCandidatesOfTheLinearSearchWithinTheThickness) {
       EXPECT_EQ(results.verdict[i], Verdict::hit) << i;
       ++on_wall;
     }
-    // Seen along a line of sight: the depth behind the board is the gap along z over the sight's cosine, >= it.
+    // Seen along a line of sight: the depth behind the board is the gap along z over the sight's cosine, >=
+    // it.
     if (seen == 2 && -3.0 - p.z > 1.1 * thickness) {
       EXPECT_EQ(results.verdict[i], Verdict::rejected) << i;
       ++behind_board;
@@ -153,7 +158,8 @@ TEST(MarchHiz, ConfidenceFallsWithTheDistanceBehindTheSurfaceAndTowardTheScreens
 TEST(MarchHiz, ABudgetEndsInBudget) {
   const Scene scene = test::triangle_soup(80, 1.2f, 2.0f, kSeed);
   const Tracer tracer(scene, {.robust = true});
-  const NormalView v(tracer, View(Camera{"c", vec3(0, 0, 5), vec3(0)}, {.width = 160, .height = 100}, scene.bounds));
+  const NormalView v(tracer,
+                     View(Camera{"c", vec3(0, 0, 5), vec3(0)}, {.width = 160, .height = 100}, scene.bounds));
   const MarchResults results = v.march({0.1, 0.1, 4});
   EXPECT_GT(std::count(results.verdict.begin(), results.verdict.end(), Verdict::budget), 500);
   EXPECT_LE(results.steps, 4 * v.main.rays.size());

@@ -16,7 +16,8 @@ class SsrmAccuracyTest : public testing::Test {
  protected:
   Row run(std::map<std::string, Value> changes, bool timing = false) {
     Point point{"0123456789abcdef", {}};
-    for (const Parameter& p : ssrm_accuracy_experiment().parameters) point.parameters[p.name] = p.default_value;
+    for (const Parameter& p : ssrm_accuracy_experiment().parameters)
+      point.parameters[p.name] = p.default_value;
     point.parameters["scene"] = std::string("atrium");
     point.parameters["camera"] = std::string("nave");
     point.parameters["resolution"] = std::string("320x180");
@@ -37,7 +38,8 @@ TEST_F(SsrmAccuracyTest, StrictChecksTradeAlphaForFarFewerFalseHits) {
   EXPECT_LT(number(strict, "false_hit_fraction"), 0.5 * number(triangle, "false_hit_fraction"));
   for (const Row& row : {triangle, strict}) {
     EXPECT_EQ(number(row, "alpha_unchecked"), number(none, "alpha"));
-    EXPECT_NEAR(number(row, "alpha") + number(row, "unknown_rejected_fraction"), number(none, "alpha"), 1e-12);
+    EXPECT_NEAR(number(row, "alpha") + number(row, "unknown_rejected_fraction"), number(none, "alpha"),
+                1e-12);
     EXPECT_LE(number(row, "rejected_right_fraction"), number(row, "unknown_rejected_fraction"));
   }
 }
@@ -74,7 +76,8 @@ TEST_F(SsrmAccuracyTest, EveryCellIsADeclaredColumnAndTimesAreFilled) {
 
 TEST_F(SsrmAccuracyTest, RunsAtOnePixelAndOnViewsOfNothing) {
   for (const char* marcher : {"paper", "level0", "dda", "hiz"}) {
-    const std::map<std::string, Value> changes{{"marcher", std::string(marcher)}, {"check", std::string("strict")}};
+    const std::map<std::string, Value> changes{{"marcher", std::string(marcher)},
+                                               {"check", std::string("strict")}};
     auto pixel = changes, nothing = changes;
     pixel["resolution"] = std::string("1x1");
     nothing["near"] = 1000.0, nothing["far"] = 2000.0;
