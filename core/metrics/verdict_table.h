@@ -41,8 +41,8 @@ struct Tolerance {
 double claimed_distance(const ssrm::DepthView& depth, const ssrm::ScreenRays& screen_rays,
                         const RayStream& rays, const View& view, size_t ray, uint32_t pixel);
 
-// Classifies every ray. The G-buffer must hold primitives, whose normals give the cosine. If `classes` is not
-// null it receives one entry a ray.
+// Classifies every ray; a HIT lies where `results` says, else at claimed_distance. The G-buffer must hold
+// primitives, whose normals give the cosine. If `classes` is not null it receives one entry a ray.
 VerdictTable judge(const ssrm::MarchResults& results, const ssrm::DepthView& depth,
                    const ssrm::ScreenRays& screen_rays, const RayStream& rays, const truth::RayTruth& truth,
                    const GBuffer& gbuffer, const Scene& scene, const Tolerance& tolerance,

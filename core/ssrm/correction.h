@@ -37,6 +37,10 @@ struct SlantedTest {
 };
 SlantedTest slanted_test(const DepthView& view, const ScreenRay<double>& ray, int x, int y);
 
+// Distance, metres, at which ray `i` meets the plane of `pixel`, kept inside its stay in that pixel.
+double plane_distance(const DepthView& depth, const ScreenRays& screen_rays, const RayStream& rays,
+                      const View& view, size_t i, uint32_t pixel);
+
 // Verdict and accepted pixel of a ray whose march stopped at `pixel`, entered from `previous`. `origin` is
 // the ray's own pixel, which is never accepted.
 struct Correction {

@@ -62,10 +62,21 @@ ScreenRays project_rays(const RayStream& rays, const View& view, const Bounds3& 
   return out;
 }
 
+namespace {
+
+// k of t = L / (1 - L k).
+double depth_rate(const RayStream& rays, size_t i, const View& view) {
+  return glm::dot(dvec3(rays.direction(i)), view.forward()) / view.view_depth(dvec3(rays.origin(i)));
+}
+
+}  // namespace
+
 double distance_of(const RayStream& rays, size_t i, const View& view, double l) {
-  const double k =
-      glm::dot(dvec3(rays.direction(i)), view.forward()) / view.view_depth(dvec3(rays.origin(i)));
-  return l / (1.0 - l * k);
+  return l / (1.0 - l * depth_rate(rays, i, view));
+}
+
+double parameter_of(const RayStream& rays, size_t i, const View& view, double t) {
+  return t / (1.0 + t * depth_rate(rays, i, view));
 }
 
 }  // namespace hybray::ssrm

@@ -56,4 +56,7 @@ ScreenRays project_rays(const RayStream& rays, const View& view, const Bounds3& 
 // Distance t, metres, of screen parameter `l` along world ray `i`.
 double distance_of(const RayStream& rays, size_t i, const View& view, double l);
 
+// The other way: L of distance `t`.
+double parameter_of(const RayStream& rays, size_t i, const View& view, double t);
+
 }  // namespace hybray::ssrm

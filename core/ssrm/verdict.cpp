@@ -18,6 +18,8 @@ const char* label(Verdict verdict) {
       return "correction";
     case Verdict::budget:
       return "budget";
+    case Verdict::rejected:
+      return "rejected";
   }
   return "invalid";
 }

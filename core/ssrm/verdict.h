@@ -3,11 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace hybray::ssrm {
 
-// HIT, MISS, or UNKNOWN with the first event that ended the march.
+// HIT, MISS, or UNKNOWN with the first event that ended the march, or the check that undid its HIT.
 enum class Verdict : uint8_t {
   hit,   // passed the slanted-plane test of the accepted pixel
   miss,  // in front of all stored depth, at pixel centres, until it left the scene's bounds inside the view
@@ -16,20 +17,24 @@ enum class Verdict : uint8_t {
   behind,      // already behind the failing pixel's slanted plane where it enters that pixel
   correction,  // any other failed correction
   budget,      // step budget exhausted
+  rejected,    // a HIT that failed a check after the march (hit_checks.h)
 };
-constexpr int kVerdicts = 7;
+constexpr int kVerdicts = 8;
 const char* label(Verdict verdict);
 
 constexpr bool is_unknown(Verdict v) {
   return v > Verdict::miss;
 }
 
+constexpr float kNoDistance = std::numeric_limits<float>::infinity();
 constexpr uint32_t kNoPixel = 0xffffffffu;  // the paper's (-1, -1)
 
 // One result for each ray, in the order of the rays.
 struct MarchResults {
   std::vector<Verdict> verdict;
   std::vector<uint32_t> pixel;  // row-major index of the accepted pixel of a HIT, else kNoPixel
+  std::vector<float> distance;  // metres, where a HIT lies by who found or checked it; not finite, or the
+                                // list empty: where the ray meets the accepted pixel's plane
   uint64_t steps = 0;           // depth samples read, all rays together
 
   void resize(size_t n) {

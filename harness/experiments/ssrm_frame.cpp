@@ -62,6 +62,11 @@ size_t SsrmFrame::memory_bytes() const {
          screen_rays.memory_bytes() + (slanted ? slanted->memory_bytes() : 0);
 }
 
+JudgedFrame::JudgedFrame(const SsrmSetup& setup)
+    : frame(setup), truth(truth::trace_truth(setup.robust, frame.rays(), setup.view)) {
+  frame.add_slanted(SlantedPyramid::Bounds::slanted);
+}
+
 const JudgedFrame& shared_frame(const Point& point, Workspace& workspace, unsigned more_bits) {
   std::string key = std::to_string(more_bits);
   for (const Parameter& p : ssrm_view_parameters()) key += ' ' + to_text(point.parameters.at(p.name));
@@ -148,6 +153,8 @@ void add_verdict_columns(std::vector<Column>& columns) {
           share_of_rays("unknown_correction_fraction", none,
                         "rays that failed the correction otherwise / rays"),
           share_of_rays("unknown_budget_fraction", none, "rays whose step budget was exhausted / rays"),
+          share_of_rays("unknown_rejected_fraction", none,
+                        "HITs of the march that failed a later check / rays"),
           share_of_rays("precision", higher, "right HITs / HITs"),
           share_of_rays("precision_loose", higher, "HITs within max(1 % of t*, 1.5 footprints) / HITs"),
           share_of_rays("recall", higher, "right HITs / rays whose true hit the main view sees"),
@@ -170,6 +177,7 @@ void add_verdict_cells(Row& row, const metrics::VerdictTable& t) {
   row["unknown_viewer_fraction"] = of_rays(Verdict::viewer);
   row["unknown_correction_fraction"] = of_rays(Verdict::correction);
   row["unknown_budget_fraction"] = of_rays(Verdict::budget);
+  row["unknown_rejected_fraction"] = of_rays(Verdict::rejected);
   row["precision"] = share(t.right, t.hits());
   row["precision_loose"] = share(t.right_loose, t.hits());
   row["recall"] = share(t.right, t.visible_true_hits);

@@ -55,8 +55,7 @@ struct JudgedFrame {
   SsrmFrame frame;
   truth::RayTruth truth;
 
-  explicit JudgedFrame(const SsrmSetup& setup)
-      : frame(setup), truth(truth::trace_truth(setup.robust, frame.rays(), setup.view)) {}
+  explicit JudgedFrame(const SsrmSetup& setup);  // with the slanted pyramid
 };
 const JudgedFrame& shared_frame(const Point& point, Workspace& workspace, unsigned more_bits = 0);
 

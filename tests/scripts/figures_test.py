@@ -30,6 +30,11 @@ class Figures(unittest.TestCase):
         write(self.root, "ssrm_tables", ssrm)
         write(self.root, "ssrm_derivatives", [changed(SSRM, derivatives=d, precision=p)
                                               for d, p in (("plane", 1), ("difference", 0.7))])
+        write(self.root, "ssrm_accuracy", [changed(SSRM, scene=s, marcher=m, check=c, thickness_m=t, precision=p, recall=0.7, id=i)
+                                           for s in ("sphere", "street", "atrium")
+                                           for i, (m, c, t, p) in enumerate([("paper", "none", "", 0.98), ("paper", "strict", "", 1),
+                                                                             ("dda", "none", 0.1, 0.8), ("dda", "none", 1, 0.6),
+                                                                             ("hiz", "none", 0.1, 0.9), ("hiz", "none", 1, 0)])])
         write(self.root, "caustics_rays_objects", rays() + [changed(r, scene="wine_glass", at_floor="true") for r in rays()])
         write(self.root, "caustics_depth_objects", [changed(CAUSTICS, mirror_depth=d, total_ms=d + 3) for d in (1, 2, 3, 4)])
         write(self.root, "caustics_lights", lights())
@@ -55,7 +60,7 @@ class Figures(unittest.TestCase):
         self.assertEqual(outputs[0].keys(), outputs[1].keys())
         for name, content in outputs[0].items():
             self.assertEqual(content, outputs[1][name], name)
-        for name in ("ssrm_times", "ssrm_verdicts", "ssrm_alpha", "ssrm_precision_recall", "caustics_onoff", "caustics_rays_objects",
+        for name in ("ssrm_times", "ssrm_verdicts", "ssrm_alpha", "ssrm_precision_recall", "ssrm_thickness", "caustics_onoff", "caustics_rays_objects",
                      "caustics_depth_objects", "caustics_lights", "time_error_ssrm_tables", "time_error_caustics_rays_objects"):
             pdf, svg, png = (outputs[0][f"{name}.{kind}"] for kind in ("pdf", "svg", "png"))
             self.assertTrue(pdf.startswith(b"%PDF-") and png.startswith(b"\x89PNG"), name)

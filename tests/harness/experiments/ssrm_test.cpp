@@ -53,7 +53,7 @@ TEST_F(SsrmTest, AlphaMissAndUnknownsSumToOneAndFalseHitsPartition) {
   for (const char* scene : {"sphere", "atrium"}) {
     const Row row = run({{"scene", std::string(scene)}});
     double sum = number(row, "alpha") + number(row, "miss_fraction");
-    for (const char* reason : {"offscreen", "behind", "viewer", "correction", "budget"})
+    for (const char* reason : {"offscreen", "behind", "viewer", "correction", "budget", "rejected"})
       sum += number(row, std::string("unknown_") + reason + "_fraction");
     EXPECT_NEAR(sum, 1.0, 1e-12);
     EXPECT_NEAR(number(row, "precision") + number(row, "false_hit_fraction"), 1.0, 1e-12);
