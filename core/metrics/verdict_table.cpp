@@ -3,7 +3,6 @@
 #include "core/base/check.h"
 #include "core/base/parallel.h"
 #include "core/scene/surface_point.h"
-#include "core/ssrm/cell_walk.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,13 +25,17 @@ void add(VerdictTable& sum, const VerdictTable& part) {
 
 double claimed_distance(const ssrm::DepthView& depth, const ssrm::ScreenRays& screen_rays,
                         const RayStream& rays, const View& view, size_t i, uint32_t pixel) {
+  const int x = static_cast<int>(pixel) % depth.width(), y = static_cast<int>(pixel) / depth.width();
+  return claimed_distance(ssrm::pixel_plane(depth, x, y), depth, screen_rays, rays, view, i, pixel);
+}
+
+double claimed_distance(const ssrm::PixelPlane& plane, const ssrm::DepthView& depth,
+                        const ssrm::ScreenRays& screen_rays, const RayStream& rays, const View& view,
+                        size_t i, uint32_t pixel) {
   const auto ray = screen_rays.get<double>(i);
   const int x = static_cast<int>(pixel) % depth.width(), y = static_cast<int>(pixel) / depth.width();
-  const ssrm::Axis<double> ax{ray.ox, ray.dx, depth.width()}, ay{ray.oy, ray.dy, depth.height()};
-  const double enter = std::max(ax.crossing(ax.entry_border(x)), ay.crossing(ay.entry_border(y)));
-  const double leave =
-      std::min({ax.crossing(ax.exit_border(x, 0)), ay.crossing(ay.exit_border(y, 0)), ray.l_end});
-  const ssrm::PlaneGap gap = plane_gap(depth, ray, x, y);
+  const auto [enter, leave] = ssrm::pixel_span(depth, ray, x, y);
+  const ssrm::PlaneGap gap = plane_gap(plane, ray, x, y);
   // A ray inside the plane has no crossing of its own; it touches where it enters.
   const double l = gap.slope == 0.0 ? enter : std::clamp(gap.crossing(), std::min(enter, leave), leave);
   return ssrm::distance_of(rays, i, view, l);
@@ -42,10 +45,22 @@ VerdictTable judge(const ssrm::MarchResults& results, const ssrm::DepthView& dep
                    const ssrm::ScreenRays& screen_rays, const RayStream& rays, const truth::RayTruth& truth,
                    const GBuffer& gbuffer, const Scene& scene, const Tolerance& tolerance,
                    std::vector<HitClass>* classes) {
+  const auto surface_of = [&](size_t i) {
+    const int pixel = static_cast<int>(results.pixel[i]), width = depth.width();
+    return ClaimedSurface{ssrm::pixel_plane(depth, pixel % width, pixel / width),
+                          gbuffer.primitive[results.pixel[i]]};
+  };
+  return judge(results, surface_of, depth, screen_rays, rays, truth, gbuffer.view, scene, tolerance, classes);
+}
+
+VerdictTable judge(const ssrm::MarchResults& results,
+                   const std::function<ClaimedSurface(size_t ray)>& surface_of, const ssrm::DepthView& depth,
+                   const ssrm::ScreenRays& screen_rays, const RayStream& rays, const truth::RayTruth& truth,
+                   const View& view, const Scene& scene, const Tolerance& tolerance,
+                   std::vector<HitClass>* classes) {
   HYBRAY_CHECK_EQ(results.size(), rays.size());
   HYBRAY_CHECK_EQ(truth.size(), rays.size());
   if (classes) classes->assign(rays.size(), HitClass::none);
-  const View& view = gbuffer.view;
   VerdictTable table;
   std::mutex merging;
   parallel_blocks(rays.size(), 8192, [&](size_t begin, size_t end) {
@@ -60,12 +75,14 @@ VerdictTable judge(const ssrm::MarchResults& results, const ssrm::DepthView& dep
 
       HitClass kind = HitClass::phantom;
       if (truly_hits) {
-        const double claimed = claimed_distance(depth, screen_rays, rays, view, i, results.pixel[i]);
+        const ClaimedSurface surface = surface_of(i);
+        const double claimed =
+            claimed_distance(surface.plane, depth, screen_rays, rays, view, i, results.pixel[i]);
         const double true_t = truth.hits.t[i], error = std::abs(claimed - true_t);
         const dvec3 direction(rays.direction(i));
         const double footprint = view.view_depth(dvec3(rays.origin(i)) + claimed * direction) / view.focal();
-        const dvec3 normal = geometric_normal(scene, gbuffer.primitive[results.pixel[i]],
-                                              dvec3(rays.origin(i)) + claimed * direction);
+        const dvec3 normal =
+            geometric_normal(scene, surface.primitive, dvec3(rays.origin(i)) + claimed * direction);
         const double cosine = std::max(0.1, std::abs(glm::dot(normal, direction)));
         kind = error <= tolerance.footprint_factor * footprint / cosine ? HitClass::right
                : claimed < true_t                                       ? HitClass::early
