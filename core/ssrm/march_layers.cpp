@@ -8,15 +8,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <cstdlib>
 #include <optional>
 
 namespace hybray::ssrm {
 namespace {
-double K() {
-  static const double k = std::getenv("KC") ? atof(std::getenv("KC")) : kContinuation;
-  return k;
-}
 
 // A layer next to a ray's slot, in one pixel.
 struct Side {
@@ -39,7 +34,7 @@ struct Slot {
 bool may_be_one_surface(const Side& front, const Side& back, double l) {
   if (front.primitive == back.primitive) return true;
   const double apart = front.gap.at(l) - back.gap.at(l);
-  return apart < K() * 0.5 * (front.slopes() + back.slopes());
+  return apart < kContinuation * 0.5 * (front.slopes() + back.slopes());
 }
 
 // Whether a ray that was in `before` and, across the border at l, is in `now` has crossed nothing: a surface
@@ -65,11 +60,11 @@ class LayerMarch {
 
   LayerHit march() {
     if (const auto end = step_pixel()) return *end;
-    for (;;) {
+    for (bool late = false;; late = true) {
       if (const auto end = to_first_stop()) return *end;
       const ivec2 previous = walk_.previous();
       const Correction c = correct(view_.first, exact_, {walk_.px, walk_.py}, previous, origin_);
-      if (c.verdict == Verdict::hit) return {c.verdict, c.pixel, 0};
+      if (c.verdict == Verdict::hit) return {c.verdict, c.pixel, 0, late};
       if (c.verdict == Verdict::correction) {
         if (!options_.march_on) return {c.verdict};
         if (const auto end = step_pixel()) return *end;
@@ -151,9 +146,10 @@ class LayerMarch {
     return slot;
   }
 
+  // Whether the ray is in space that it can only have come to through a surface.
   bool inside_something(const Slot& s, size_t pixel) const {
-    return options_.orientation && view_.layers.shows_front(pixel, s.front.layer) &&
-           !view_.layers.shows_front(pixel, s.back.layer);
+    return !is_free(options_.free_space, view_.layers.shows_front(pixel, s.front.layer),
+                    view_.layers.shows_front(pixel, s.back.layer));
   }
 
   // The walk behind the first layer, from the pixel that the ray is in; nothing where it has come in front
@@ -191,7 +187,7 @@ class LayerMarch {
       if (far || near) {
         const bool far_first = far && (!near || now.back.gap.crossing() <= now.front.gap.crossing());
         return LayerHit{Verdict::hit, static_cast<uint32_t>(index(p)),
-                        (far_first ? now.back : now.front).layer};
+                        (far_first ? now.back : now.front).layer, true};
       }
       if (auto end = step_pixel()) return end->verdict == Verdict::miss ? kLost : *end;
       before = now;
@@ -236,6 +232,7 @@ void march_layers(const LayeredView& view, const ScreenRays& rays, const std::ve
       results.march.verdict[i] = hit.verdict;
       results.march.pixel[i] = hit.pixel;
       results.layer[i] = static_cast<uint8_t>(hit.layer);
+      results.late[i] = hit.late;
     }
     steps += mine;
   });

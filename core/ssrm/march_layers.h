@@ -4,9 +4,9 @@
 // In front of everything it is march_paper: the same steps, the same test, the same HITs. A ray that gets
 // behind the first layer has, in each pixel, a slot: the number of layers in front of it. In a slot it walks
 // from pixel to pixel; crossing the slanted plane of the layer behind or in front of its slot inside a pixel
-// is a HIT on that layer. Space between a front face and the back face behind it is the inside of something:
-// a ray that finds itself there has gone through a surface unseen, and is not resolved. Nor is it behind the
-// last layer.
+// is a HIT on that layer. Space that is not free (FreeSpace) can only be reached through a surface: a ray
+// that finds itself there has gone through one unseen, and is not resolved. Nor is it behind the last layer,
+// nor where a surface that was behind it in one pixel may be the one that is in front of it in the next.
 #pragma once
 
 #include "core/gbuffer/depth_layers.h"
@@ -32,18 +32,20 @@ struct LayeredView {
 };
 
 struct LayerOptions {
-  bool orientation = true;  // false: naive, every space between two layers counts as free
-  bool march_on = true;     // a ray that was stopped by a pixel's centre depth, but stays in front of its
+  FreeSpace free_space = FreeSpace::closed;
+  bool march_on = true;  // a ray that was stopped by a pixel's centre depth, but stays in front of its
                          // slanted plane, goes on; the paper gives it up
 };
 
 struct LayerResults {
   MarchResults march;
   std::vector<uint8_t> layer;  // of a HIT, 0 = first
+  std::vector<uint8_t> late;   // of a HIT: 1 where the paper's marcher would have given the ray up before
 
   void resize(size_t n) {
     march.resize(n);
     layer.resize(n);
+    late.resize(n);
   }
 };
 
@@ -51,6 +53,7 @@ struct LayerHit {
   Verdict verdict;
   uint32_t pixel = kNoPixel;
   int layer = 0;
+  bool late = false;
 };
 
 // All rays, all threads. As march_paper; with one layer and without march_on, the same results. `steps`

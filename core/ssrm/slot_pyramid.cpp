@@ -21,7 +21,7 @@ float reach(const PixelPlane& plane) {
 
 }  // namespace
 
-SlotPyramid::Bounds SlotPyramid::pixel(const DepthView& view, const DepthLayers& layers, bool orientation,
+SlotPyramid::Bounds SlotPyramid::pixel(const DepthView& view, const DepthLayers& layers, FreeSpace rule,
                                        int x, int y) const {
   constexpr Bounds kNever{kInfinity, -kInfinity};
   const PixelPlane first = pixel_plane(view, x, y);
@@ -34,11 +34,11 @@ SlotPyramid::Bounds SlotPyramid::pixel(const DepthView& view, const DepthLayers&
     b.next_begins = std::min(b.next_begins, static_cast<float>(plane.center) - reach(plane));
   }
   const size_t index = static_cast<size_t>(y) * static_cast<size_t>(view.width()) + static_cast<size_t>(x);
-  const bool inside = orientation && layers.shows_front(index, 0) && !layers.shows_front(index, 1);
-  return std::isinf(b.next_begins) || inside ? kNever : b;
+  const bool free = is_free(rule, layers.shows_front(index, 0), layers.shows_front(index, 1));
+  return std::isinf(b.next_begins) || !free ? kNever : b;
 }
 
-SlotPyramid::SlotPyramid(const DepthView& view, const DepthLayers& layers, bool orientation) {
+SlotPyramid::SlotPyramid(const DepthView& view, const DepthLayers& layers, FreeSpace rule) {
   size_t texels = 0;
   for (int l = 1, w = (view.width() + 1) / 2, h = (view.height() + 1) / 2;
        l < DepthPyramid::level_count(view.width(), view.height()); ++l, w = (w + 1) / 2, h = (h + 1) / 2) {
@@ -51,7 +51,7 @@ SlotPyramid::SlotPyramid(const DepthView& view, const DepthLayers& layers, bool 
     const int width = l == 0 ? view.width() : levels_[l - 1].width;
     const int height = l == 0 ? view.height() : levels_[l - 1].height;
     const auto below = [&](int x, int y) {
-      if (l == 0) return pixel(view, layers, orientation, x, y);
+      if (l == 0) return pixel(view, layers, rule, x, y);
       return texels_[levels_[l - 1].first + static_cast<size_t>(y) * static_cast<size_t>(width) +
                      static_cast<size_t>(x)];
     };

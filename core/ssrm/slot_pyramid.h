@@ -17,11 +17,22 @@ namespace hybray::ssrm {
 // side in the pixel before must be to be told apart (march_layers.h).
 inline constexpr double kContinuation = 1.0;
 
+// Which space between two layers a ray may be in without having crossed a surface.
+enum class FreeSpace : uint8_t {
+  any,         // naive: all
+  not_solids,  // all but that between a front face and a back face: the inside of a body
+  closed,  // that between a back face and a front face alone, as if all surfaces were those of closed bodies
+};
+constexpr bool is_free(FreeSpace rule, bool front_faces_viewer, bool back_faces_viewer) {
+  if (rule == FreeSpace::any) return true;
+  if (rule == FreeSpace::closed) return !front_faces_viewer && back_faces_viewer;
+  return !front_faces_viewer || back_faces_viewer;
+}
+
 class SlotPyramid {
  public:
-  // Of the same view and layers as the marcher's; all threads. With `orientation`, the inside of things is
-  // never clear.
-  SlotPyramid(const DepthView& first, const DepthLayers& layers, bool orientation);
+  // Of the same view and layers as the marcher's; all threads. Space that is not free is never clear.
+  SlotPyramid(const DepthView& first, const DepthLayers& layers, FreeSpace rule);
 
   int levels() const { return static_cast<int>(levels_.size()) + 1; }  // with level 0, which is not kept
   // Whether a ray whose march depths lie in [nearest, farthest] is between the first layer and all further
@@ -42,7 +53,7 @@ class SlotPyramid {
     int width, height;
     size_t first;
   };
-  Bounds pixel(const DepthView& view, const DepthLayers& layers, bool orientation, int x, int y) const;
+  Bounds pixel(const DepthView& view, const DepthLayers& layers, FreeSpace rule, int x, int y) const;
 
   std::vector<Level> levels_;
   std::vector<Bounds> texels_;

@@ -21,13 +21,17 @@ std::vector<Parameter> parameters() {
               "guard_band", "1", 0.1, 0.0, 0.5,
               "Pixels that the buffers reach beyond the screen on each side, as a share of its size; rounded "
               "up to whole tiles of 8."),
-          flag("orientation", true,
-               "A ray between a front face and the back face behind it is inside something and not resolved; "
-               "false: every space between layers counts as free."),
+          choice(
+              "free_space", "closed", {"any", "not_solids", "closed"},
+              "Space between two layers that a ray may be in: any (naive), all but that between a front face "
+              "and a back face, or that between a back face and a front face alone."),
           flag(
               "march_on", true,
               "A ray that a pixel's centre depth stopped, but that stays in front of its slanted plane, goes "
               "on; false: it is given up, as in the paper."),
+          flag("confirm", true,
+               "HITs of rays that the paper would have given up must meet a triangle that the pixel or its "
+               "neighbours hold."),
           flag(
               "min_max", true,
               "Rays behind the first layer skip cells by the far bound of the first layer and the near bound "
@@ -50,8 +54,9 @@ std::vector<Column> columns() {
       {
           key("layers", "depth layers of each pixel"),
           key("guard_band", "share of the size that the buffers reach beyond the screen on each side", "1"),
-          key("orientation", "whether the inside of things is told from free space"),
+          key("free_space", "space between layers that counts as free"),
           key("march_on", "whether rays that stay in front of a slanted plane go on"),
+          key("confirm", "whether later HITs must meet a triangle"),
           key("min_max", "whether rays behind the first layer skip cells"),
           counted("band_width_px", "pixels of the band on the left and on the right", "px"),
           counted("band_height_px", "pixels of the band above and below", "px"),

@@ -1,6 +1,7 @@
 // One point of `ssrm_layers`: band, layers, march, verdicts, times.
 #include "core/gbuffer/guard_band.h"
 #include "core/metrics/statistics.h"
+#include "core/ssrm/confirm_hits.h"
 #include "core/ssrm/hybrid.h"
 #include "core/ssrm/march_layers.h"
 #include "core/truth/layer_visibility.h"
@@ -32,10 +33,18 @@ GBuffer first_layer(const SsrmSetup& setup, const GBuffer& main, ivec2 margin) {
   return g;
 }
 
+ssrm::FreeSpace free_space(const std::string& name) {
+  if (name == "any") return ssrm::FreeSpace::any;
+  return name == "closed" ? ssrm::FreeSpace::closed : ssrm::FreeSpace::not_solids;
+}
+
 struct LayeredFrame {
   ivec2 margin;
   bool min_max;
   ssrm::LayerOptions options;
+  bool confirm;
+  const Scene& scene;
+  const RayStream& rays;
   GBuffer first;
   DepthLayers layers;
   DepthPyramid pyramid;
@@ -47,7 +56,10 @@ struct LayeredFrame {
       : margin(guard_band(setup.view.width(), point.number("guard_band")),
                guard_band(setup.view.height(), point.number("guard_band"))),
         min_max(point.boolean("min_max")),
-        options{point.boolean("orientation"), point.boolean("march_on")},
+        options{free_space(point.text("free_space")), point.boolean("march_on")},
+        confirm(point.boolean("confirm")),
+        scene(setup.scene),
+        rays(main.rays()),
         first(first_layer(setup, march_buffers(main.gbuffer), margin)),
         layers(make_depth_layers(setup.robust, first, static_cast<int>(point.integer("layers")))),
         pyramid(first.view.width(), first.view.height()),
@@ -64,7 +76,7 @@ struct LayeredFrame {
   void build_pyramid() { pyramid.build(first.depth, first.view.depth_sign(), first.view.background_depth()); }
   bool has_slots() const { return min_max && layers.count() > 1; }
   void build_slots() {
-    if (has_slots()) slots = std::make_unique<ssrm::SlotPyramid>(depth(), layers, options.orientation);
+    if (has_slots()) slots = std::make_unique<ssrm::SlotPyramid>(depth(), layers, options.free_space);
   }
   ssrm::DepthView depth() const { return {pyramid, first.depth_derivatives, first.view.depth_sign()}; }
   ssrm::LayeredView view() const { return {depth(), first.primitive, layers, slots.get()}; }
@@ -74,6 +86,7 @@ struct LayeredFrame {
   }
   void march(ssrm::LayerResults& results) const {
     march_layers(view(), screen_rays, pixels, options, results);
+    if (confirm) confirm_late_hits(view(), first.view, scene, rays, screen_rays, results);
   }
   metrics::ClaimedSurface surface(const ssrm::LayerResults& results, size_t ray) const {
     const uint32_t pixel = results.march.pixel[ray], width = static_cast<uint32_t>(first.view.width());
@@ -223,7 +236,8 @@ Row run(const Point& point, Workspace& workspace) {
   add_view_cells(row, point, setup, main.frame);
   row["layers"] = point.integer("layers");
   row["guard_band"] = point.number("guard_band");
-  for (const char* name : {"orientation", "march_on", "min_max"}) row[name] = point.boolean(name);
+  row["free_space"] = point.text("free_space");
+  for (const char* name : {"march_on", "confirm", "min_max"}) row[name] = point.boolean(name);
   row["band_width_px"] = int64_t{frame.margin.x};
   row["band_height_px"] = int64_t{frame.margin.y};
   row["buffer_bytes"] = static_cast<int64_t>(frame.memory_bytes());
