@@ -154,7 +154,7 @@ TEST_P(MarchLayersScenes, OneLayerWithoutMarchingOnIsThePapersMarcher) {
   }
 }
 
-TEST_P(MarchLayersScenes, SkippingCellsChangesNoResultAndSavesSteps) {
+TEST_P(MarchLayersScenes, SkippingCellsChangesNoResult) {
   const Scene scene = load_scene(test::scene_paths(), GetParam());
   const Tracer tracer(scene, {.robust = true, .layers = true});
   for (const Size& size : {Size{333, 217}, Size{64, 1}, Size{1, 1}})
