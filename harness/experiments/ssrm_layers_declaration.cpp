@@ -33,7 +33,7 @@ std::vector<Parameter> parameters() {
                "HITs of rays that the paper would have given up must meet a triangle that the pixel or its "
                "neighbours hold."),
           flag(
-              "min_max", true,
+              "min_max", false,
               "Rays behind the first layer skip cells by the far bound of the first layer and the near bound "
               "of the others: the same results."),
           repeats(),

@@ -45,9 +45,9 @@ def draw(results: Results, folder: Path) -> list[Path]:
     bands = sorted({number(r, "guard_band") for r in rows})
     figure, axes = style.panels(2, 2, 2.1)
     readings = (("alpha over that of one layer without band", r"$\alpha\,/\,\alpha_1$", lambda r: number(r, "alpha_gain")),
-                ("precision beside that of one layer without band", "points", gained_precision),
-                ("time of the hybrid beside one layer without band", r"$T_{1}\,/\,T$", lambda r: number(r, "speedup_over_single_layer")),
-                ("memory of the buffers over one layer without band", "ratio", memory_ratio))
+                ("precision less that of one layer without band", "points", gained_precision),
+                ("speed of the hybrid over one layer without band", r"$T_{1}\,/\,T$", lambda r: number(r, "speedup_over_single_layer")),
+                ("memory of the buffers, likewise", "ratio", memory_ratio))
     for axis, (title, label, value) in zip(axes, readings):
         against_layers(axis, rows, scenes, bands, value)
         axis.set(title=title, ylabel=label, xlabel="depth layers")
