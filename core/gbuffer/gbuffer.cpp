@@ -13,6 +13,8 @@ namespace {
 
 constexpr int kPacket = 16;  // rays of one packet: a 4x4 square, a quarter of a Morton tile
 
+}  // namespace
+
 void store_pixel(GBuffer& g, const Scene& scene, int x, int y, const Hit& hit) {
   if (!g.primitive.empty()) g.primitive(x, y) = hit.primitive;
   if (!g.material.empty()) g.material(x, y) = scene.material_of(hit.primitive);
@@ -50,8 +52,8 @@ void store_pixel(GBuffer& g, const Scene& scene, int x, int y, const Hit& hit) {
   }
 }
 
-// Traces one 8x8 tile as four packets of 4x4 pixel centres; returns the number of covered pixels.
 size_t trace_tile(const Tracer& tracer, GBuffer& g, int tile_x, int tile_y) {
+  const int left = tile_x * kMortonTile, top = tile_y * kMortonTile;
   const vec3 eye(g.view.eye());
   size_t covered = 0;
   for (uint32_t first = 0; first < kMortonTile * kMortonTile; first += kPacket) {
@@ -60,7 +62,7 @@ size_t trace_tile(const Tracer& tracer, GBuffer& g, int tile_x, int tile_y) {
     Hit hits[kPacket];
     int count = 0;
     for (uint32_t i = first; i < first + kPacket; ++i) {
-      const int x = tile_x + morton_x(i), y = tile_y + morton_y(i);
+      const int x = left + morton_x(i), y = top + morton_y(i);
       if (x >= g.view.width() || y >= g.view.height()) continue;
       pixels[count] = ivec2(x, y);
       directions[count++] = vec3(g.view.ray_direction(x + 0.5, y + 0.5));
@@ -77,15 +79,13 @@ size_t trace_tile(const Tracer& tracer, GBuffer& g, int tile_x, int tile_y) {
   return covered;
 }
 
-}  // namespace
-
 size_t GBuffer::memory_bytes() const {
   const auto bytes = [](const auto& image) { return image.size() * sizeof(*image.data()); };
   return bytes(depth) + bytes(depth_derivatives) + bytes(geometric_normal) + bytes(shading_normal) +
          bytes(primitive) + bytes(material);
 }
 
-GBuffer make_gbuffer(const Tracer& tracer, const View& view, unsigned bits) {
+GBuffer empty_gbuffer(const View& view, unsigned bits) {
   const int w = view.width(), h = view.height();
   GBuffer g(view);
   if (bits & kDepth) g.depth = Image2D<float>(w, h, view.background_depth());
@@ -94,17 +94,21 @@ GBuffer make_gbuffer(const Tracer& tracer, const View& view, unsigned bits) {
   if (bits & kShadingNormal) g.shading_normal = Image2D<vec3>(w, h);
   if (bits & kPrimitive) g.primitive = Image2D<uint32_t>(w, h, kNoPrimitive);
   if (bits & kMaterial) g.material = Image2D<uint32_t>(w, h, kNoPrimitive);
+  return g;
+}
 
+GBuffer make_gbuffer(const Tracer& tracer, const View& view, unsigned bits) {
+  GBuffer g = empty_gbuffer(view, bits);
+  const int w = view.width(), h = view.height();
   const int tiles_x = (w + kMortonTile - 1) / kMortonTile, tiles_y = (h + kMortonTile - 1) / kMortonTile;
   std::atomic<size_t> covered{0};
-  parallel_blocks(static_cast<size_t>(tiles_x) * static_cast<size_t>(tiles_y), 16,
-                  [&](size_t begin, size_t end) {
-                    size_t mine = 0;
-                    for (size_t tile = begin; tile < end; ++tile)
-                      mine += trace_tile(tracer, g, static_cast<int>(tile % tiles_x) * kMortonTile,
-                                         static_cast<int>(tile / tiles_x) * kMortonTile);
-                    covered += mine;
-                  });
+  parallel_blocks(
+      static_cast<size_t>(tiles_x) * static_cast<size_t>(tiles_y), 16, [&](size_t begin, size_t end) {
+        size_t mine = 0;
+        for (size_t tile = begin; tile < end; ++tile)
+          mine += trace_tile(tracer, g, static_cast<int>(tile % tiles_x), static_cast<int>(tile / tiles_x));
+        covered += mine;
+      });
   g.covered_pixels = covered;
   return g;
 }

@@ -43,6 +43,14 @@ struct GBuffer {
 // Builds the buffers in `bits`. Surfaces nearer than the near plane or beyond the far plane are not seen.
 GBuffer make_gbuffer(const Tracer& tracer, const View& view, unsigned bits);
 
+// The parts that make_gbuffer is made of. Buffers of background alone:
+GBuffer empty_gbuffer(const View& view, unsigned bits);
+// Writes what `hit` says to all buffers that `g` has at pixel (x, y).
+void store_pixel(GBuffer& g, const Scene& scene, int x, int y, const Hit& hit);
+// Traces the pixels of tile (tile_x, tile_y), 8x8 of them, as four packets of 4x4; returns how many are
+// covered.
+size_t trace_tile(const Tracer& tracer, GBuffer& g, int tile_x, int tile_y);
+
 // The depth derivatives that graphics hardware makes: differences of the depth buffer inside each 2x2 quad,
 // edges included ("ddx_fine", "ddy_fine"). At the last column or row of an odd size, where the quad has no
 // partner, the difference to the pixel before is taken.

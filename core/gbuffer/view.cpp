@@ -63,4 +63,11 @@ View::View(const Camera& camera, const Settings& s, const Bounds3& bounds)
   }
 }
 
+View View::with_margin(int x, int y) const {
+  View larger = *this;
+  larger.width_ += 2 * x;
+  larger.height_ += 2 * y;
+  return larger;
+}
+
 }  // namespace hybray

@@ -28,6 +28,10 @@ class View {
   // Throws InputError for settings out of range and for a camera whose axes are degenerate.
   View(const Camera& camera, const Settings& settings, const Bounds3& bounds);
 
+  // The same camera with `x` more pixels on the left and on the right and `y` above and below: the screen
+  // point (px, py) becomes (px + x, py + y), whose ray is the same to the last bit.
+  View with_margin(int x, int y) const;
+
   int width() const { return width_; }
   int height() const { return height_; }
   double near() const { return near_; }

@@ -23,19 +23,26 @@ void add(VerdictTable& sum, const VerdictTable& part) {
 
 }  // namespace
 
-double claimed_distance(const ssrm::DepthView& depth, const ssrm::ScreenRays& screen_rays,
-                        const RayStream& rays, const View& view, size_t i, uint32_t pixel) {
-  return plane_distance(depth, screen_rays, rays, view, i, pixel);
-}
-
 VerdictTable judge(const ssrm::MarchResults& results, const ssrm::DepthView& depth,
                    const ssrm::ScreenRays& screen_rays, const RayStream& rays, const truth::RayTruth& truth,
                    const GBuffer& gbuffer, const Scene& scene, const Tolerance& tolerance,
                    std::vector<HitClass>* classes) {
+  const auto surface_of = [&](size_t i) {
+    const int pixel = static_cast<int>(results.pixel[i]), width = depth.width();
+    return ClaimedSurface{ssrm::pixel_plane(depth, pixel % width, pixel / width),
+                          gbuffer.primitive[results.pixel[i]]};
+  };
+  return judge(results, surface_of, depth, screen_rays, rays, truth, gbuffer.view, scene, tolerance, classes);
+}
+
+VerdictTable judge(const ssrm::MarchResults& results,
+                   const std::function<ClaimedSurface(size_t ray)>& surface_of, const ssrm::DepthView& depth,
+                   const ssrm::ScreenRays& screen_rays, const RayStream& rays, const truth::RayTruth& truth,
+                   const View& view, const Scene& scene, const Tolerance& tolerance,
+                   std::vector<HitClass>* classes) {
   HYBRAY_CHECK_EQ(results.size(), rays.size());
   HYBRAY_CHECK_EQ(truth.size(), rays.size());
   if (classes) classes->assign(rays.size(), HitClass::none);
-  const View& view = gbuffer.view;
   VerdictTable table;
   std::mutex merging;
   parallel_blocks(rays.size(), 8192, [&](size_t begin, size_t end) {
@@ -50,14 +57,16 @@ VerdictTable judge(const ssrm::MarchResults& results, const ssrm::DepthView& dep
 
       HitClass kind = HitClass::phantom;
       if (truly_hits) {
-        const double claimed = !results.distance.empty() && std::isfinite(results.distance[i])
-                                   ? results.distance[i]
-                                   : claimed_distance(depth, screen_rays, rays, view, i, results.pixel[i]);
+        const ClaimedSurface surface = surface_of(i);
+        const double claimed =
+            !results.distance.empty() && std::isfinite(results.distance[i])
+                ? results.distance[i]
+                : ssrm::plane_distance(surface.plane, depth, screen_rays, rays, view, i, results.pixel[i]);
         const double true_t = truth.hits.t[i], error = std::abs(claimed - true_t);
         const dvec3 direction(rays.direction(i));
         const double footprint = view.view_depth(dvec3(rays.origin(i)) + claimed * direction) / view.focal();
-        const dvec3 normal = geometric_normal(scene, gbuffer.primitive[results.pixel[i]],
-                                              dvec3(rays.origin(i)) + claimed * direction);
+        const dvec3 normal =
+            geometric_normal(scene, surface.primitive, dvec3(rays.origin(i)) + claimed * direction);
         const double cosine = std::max(0.1, std::abs(glm::dot(normal, direction)));
         kind = error <= tolerance.footprint_factor * footprint / cosine ? HitClass::right
                : claimed < true_t                                       ? HitClass::early

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace hybray::metrics {
@@ -32,20 +33,29 @@ struct VerdictTable {
   uint64_t hits() const { return count(ssrm::Verdict::hit); }
 };
 
+// The surface that a HIT names.
+struct ClaimedSurface {
+  ssrm::PixelPlane plane;  // of the accepted pixel
+  uint32_t primitive;
+};
+
 struct Tolerance {
   double footprint_factor = 1.0;  // k of |t - t*| <= k footprint / max(0.1, |cos|)
 };
 
-// Distance along the ray at which a HIT claims to lie: the ray's intersection with the accepted pixel's
-// plane, metres.
-double claimed_distance(const ssrm::DepthView& depth, const ssrm::ScreenRays& screen_rays,
-                        const RayStream& rays, const View& view, size_t ray, uint32_t pixel);
-
-// Classifies every ray; a HIT lies where `results` says, else at claimed_distance. The G-buffer must hold
+// Classifies every ray; a HIT lies where `results` says, else where the ray meets the plane
+// of the accepted pixel. The G-buffer must hold
 // primitives, whose normals give the cosine. If `classes` is not null it receives one entry a ray.
 VerdictTable judge(const ssrm::MarchResults& results, const ssrm::DepthView& depth,
                    const ssrm::ScreenRays& screen_rays, const RayStream& rays, const truth::RayTruth& truth,
                    const GBuffer& gbuffer, const Scene& scene, const Tolerance& tolerance,
+                   std::vector<HitClass>* classes = nullptr);
+
+// The same for HITs on surfaces that `surface_of` knows by their ray: a marcher of several depth layers.
+VerdictTable judge(const ssrm::MarchResults& results,
+                   const std::function<ClaimedSurface(size_t ray)>& surface_of, const ssrm::DepthView& depth,
+                   const ssrm::ScreenRays& screen_rays, const RayStream& rays, const truth::RayTruth& truth,
+                   const View& view, const Scene& scene, const Tolerance& tolerance,
                    std::vector<HitClass>* classes = nullptr);
 
 }  // namespace hybray::metrics

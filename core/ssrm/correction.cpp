@@ -6,36 +6,42 @@
 
 namespace hybray::ssrm {
 
+PixelSpan pixel_span(const DepthView& view, const ScreenRay<double>& ray, int x, int y) {
+  const Axis<double> ax{ray.ox, ray.dx, view.width()}, ay{ray.oy, ray.dy, view.height()};
+  return {std::max(ax.crossing(ax.entry_border(x)), ay.crossing(ay.entry_border(y))),
+          std::min({ax.crossing(ax.exit_border(x, 0)), ay.crossing(ay.exit_border(y, 0)), ray.l_end})};
+}
+
+PlaneGap plane_gap(const PixelPlane& p, const ScreenRay<double>& ray, int x, int y) {
+  return {ray.oz - p.center - p.slope_x * (ray.ox - (x + 0.5)) - p.slope_y * (ray.oy - (y + 0.5)),
+          ray.dz - p.slope_x * ray.dx - p.slope_y * ray.dy};
+}
+
 PlaneGap plane_gap(const DepthView& view, const ScreenRay<double>& ray, int x, int y) {
-  const vec2 d = view.derivatives(x, y);
-  const double gx = view.depth_sign * static_cast<double>(d.x),
-               gy = view.depth_sign * static_cast<double>(d.y);
-  const double center = view.pyramid.at(0, x, y);
-  return {ray.oz - center - gx * (ray.ox - (x + 0.5)) - gy * (ray.oy - (y + 0.5)),
-          ray.dz - gx * ray.dx - gy * ray.dy};
+  return plane_gap(pixel_plane(view, x, y), ray, x, y);
 }
 
 SlantedTest slanted_test(const DepthView& view, const ScreenRay<double>& ray, int x, int y) {
-  const Axis<double> ax{ray.ox, ray.dx, view.width()}, ay{ray.oy, ray.dy, view.height()};
-  const double enter = std::max(ax.crossing(ax.entry_border(x)), ay.crossing(ay.entry_border(y)));
-  const double leave =
-      std::min({ax.crossing(ax.exit_border(x, 0)), ay.crossing(ay.exit_border(y, 0)), ray.l_end});
+  const PixelSpan span = pixel_span(view, ray, x, y);
   const PlaneGap gap = plane_gap(view, ray, x, y);
-  return {gap.at(enter) <= 0.0, gap.at(leave) >= 0.0};
+  return {gap.at(span.enter) <= 0.0, gap.at(span.leave) >= 0.0};
+}
+
+double plane_distance(const PixelPlane& plane, const DepthView& depth, const ScreenRays& screen_rays,
+                      const RayStream& rays, const View& view, size_t i, uint32_t pixel) {
+  const int x = static_cast<int>(pixel) % depth.width(), y = static_cast<int>(pixel) / depth.width();
+  const auto ray = screen_rays.get<double>(i);
+  const auto [enter, leave] = pixel_span(depth, ray, x, y);
+  const PlaneGap gap = plane_gap(plane, ray, x, y);
+  // A ray inside the plane has no crossing of its own; it touches where it enters.
+  const double l = gap.slope == 0.0 ? enter : std::clamp(gap.crossing(), std::min(enter, leave), leave);
+  return distance_of(rays, i, view, l);
 }
 
 double plane_distance(const DepthView& depth, const ScreenRays& screen_rays, const RayStream& rays,
                       const View& view, size_t i, uint32_t pixel) {
   const int x = static_cast<int>(pixel) % depth.width(), y = static_cast<int>(pixel) / depth.width();
-  const auto ray = screen_rays.get<double>(i);
-  const Axis<double> ax{ray.ox, ray.dx, depth.width()}, ay{ray.oy, ray.dy, depth.height()};
-  const double enter = std::max(ax.crossing(ax.entry_border(x)), ay.crossing(ay.entry_border(y)));
-  const double leave =
-      std::min({ax.crossing(ax.exit_border(x, 0)), ay.crossing(ay.exit_border(y, 0)), ray.l_end});
-  const PlaneGap gap = plane_gap(depth, ray, x, y);
-  // A ray inside the plane has no crossing of its own; it touches where it enters.
-  const double l = gap.slope == 0.0 ? enter : std::clamp(gap.crossing(), std::min(enter, leave), leave);
-  return distance_of(rays, i, view, l);
+  return plane_distance(pixel_plane(depth, x, y), depth, screen_rays, rays, view, i, pixel);
 }
 
 Correction correct(const DepthView& view, const ScreenRay<double>& ray, ivec2 pixel, ivec2 previous,

@@ -19,6 +19,22 @@ struct DepthView {
   int height() const { return pyramid.height(); }
 };
 
+// A pixel as a plane: march depth at its centre and what it gains by one pixel to the right and down.
+struct PixelPlane {
+  double center, slope_x, slope_y;
+};
+inline PixelPlane pixel_plane(const DepthView& view, int x, int y) {
+  const vec2 d = view.derivatives(x, y);
+  return {view.pyramid.at(0, x, y), view.depth_sign * static_cast<double>(d.x),
+          view.depth_sign * static_cast<double>(d.y)};
+}
+
+// The part of a ray inside pixel (x, y), as parameters L; it may end there.
+struct PixelSpan {
+  double enter, leave;
+};
+PixelSpan pixel_span(const DepthView& view, const ScreenRay<double>& ray, int x, int y);
+
 // Signed distance, in march depth, of a ray behind the plane of one pixel, as an affine function of L: at(l)
 // < 0 in front of it, > 0 behind it.
 struct PlaneGap {
@@ -26,6 +42,7 @@ struct PlaneGap {
   double at(double l) const { return offset + l * slope; }
   double crossing() const { return -offset / slope; }
 };
+PlaneGap plane_gap(const PixelPlane& plane, const ScreenRay<double>& ray, int x, int y);
 PlaneGap plane_gap(const DepthView& view, const ScreenRay<double>& ray, int x, int y);
 
 // The slanted test. Evaluated in double from the float ray: once a ray, and free of the rounding that would
@@ -37,7 +54,9 @@ struct SlantedTest {
 };
 SlantedTest slanted_test(const DepthView& view, const ScreenRay<double>& ray, int x, int y);
 
-// Distance, metres, at which ray `i` meets the plane of `pixel`, kept inside its stay in that pixel.
+// Distance, metres, at which ray `i` meets a plane in `pixel`, or that pixel's own, kept inside its stay there.
+double plane_distance(const PixelPlane& plane, const DepthView& depth, const ScreenRays& screen_rays,
+                      const RayStream& rays, const View& view, size_t i, uint32_t pixel);
 double plane_distance(const DepthView& depth, const ScreenRays& screen_rays, const RayStream& rays,
                       const View& view, size_t i, uint32_t pixel);
 

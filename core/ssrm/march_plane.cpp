@@ -30,10 +30,7 @@ bool crosses_border_above(int border, int level) {
 }  // namespace
 
 PixelCrossing pixel_crossing(const DepthView& view, const ScreenRay<double>& ray, int x, int y) {
-  const Axis<double> ax{ray.ox, ray.dx, view.width()}, ay{ray.oy, ray.dy, view.height()};
-  const double enter = std::max(ax.crossing(ax.entry_border(x)), ay.crossing(ay.entry_border(y)));
-  const double leave =
-      std::min({ax.crossing(ax.exit_border(x, 0)), ay.crossing(ay.exit_border(y, 0)), ray.l_end});
+  const auto [enter, leave] = pixel_span(view, ray, x, y);
   const PlaneGap gap = plane_gap(view, ray, x, y);
   const vec2 slope = view.derivatives(x, y);
   const double magnitude = std::abs(static_cast<double>(view.pyramid.at(0, x, y))) +

@@ -32,10 +32,23 @@ inline constexpr TraceMode kAllTraceModes[] = {TraceMode::single,           Trac
                                                TraceMode::packet16_coherent};
 const char* label(TraceMode mode);
 
+// Primitives that a ray has gone through.
+struct PassedPrimitives {
+  static constexpr int kMost = 8;
+  uint32_t primitive[kMost];
+  int count = 0;
+  bool has(uint32_t p) const {
+    for (int i = 0; i < count; ++i)
+      if (primitive[i] == p) return true;
+    return false;
+  }
+};
+
 class Tracer {
  public:
   struct Config {
     bool robust = false;       // watertight, slower traversal (RTC_SCENE_FLAG_ROBUST)
+    bool layers = false;       // next_hits16 may be asked for
     bool high_quality = true;  // spatial-split BVH: slower to build, faster to trace
   };
 
@@ -73,6 +86,12 @@ class Tracer {
   // packet (primary rays of a tile). Directions need not have unit length; t is in units of their length.
   void intersect_packet16(const vec3& origin, const vec3* directions, int count, float t_near, float t_far,
                           Hit* hits) const;
+
+  // The same for the surfaces behind those that were hit before: nearest hits with t in [t_near of its lane,
+  // t_far] on primitives that the lane has not passed yet, so that coincident surfaces all have their turn.
+  // Analytic surfaces are always hit. Needs Config::layers.
+  void next_hits16(const vec3& origin, const vec3* directions, int count, const float* t_near, float t_far,
+                   const PassedPrimitives* passed, Hit* hits) const;
 
  private:
   void trace_blocks(const RayStream& rays, std::span<const uint32_t> which, size_t count, HitStream& hits,

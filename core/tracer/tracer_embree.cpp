@@ -2,6 +2,7 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/tracer/cut_out_filter.h"
+#include "core/tracer/embree_filter.h"
 #include "core/tracer/embree_query.h"
 #include "core/tracer/tracer.h"
 #include "core/tracer/user_geometry.h"
@@ -115,7 +116,9 @@ Tracer::Tracer(const Scene& scene, const Config& config) : impl_(std::make_uniqu
       &impl_->bytes);
 
   impl_->rtc = rtcNewScene(impl_->device);
-  rtcSetSceneFlags(impl_->rtc, config.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+  rtcSetSceneFlags(impl_->rtc, static_cast<RTCSceneFlags>(
+                                   (config.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE) |
+                                   (config.layers ? embree::kQueryFilterFlag : RTC_SCENE_FLAG_NONE)));
   rtcSetSceneBuildQuality(impl_->rtc,
                           config.high_quality ? RTC_BUILD_QUALITY_HIGH : RTC_BUILD_QUALITY_MEDIUM);
 
@@ -191,6 +194,23 @@ void Tracer::intersect_packet16(const vec3& origin, const vec3* directions, int 
   }
   embree::clear_hits<16>(packet, t_far);
   embree::query(valid, impl_->rtc, q, packet);
+  for (int lane = 0; lane < count; ++lane) hits[lane] = embree::lane_hit(packet, lane);
+}
+
+void Tracer::next_hits16(const vec3& origin, const vec3* directions, int count, const float* t_near,
+                         float t_far, const PassedPrimitives* passed, Hit* hits) const {
+  RTCRayHit16 packet{};
+  embree::prepare_packet<16>(packet, 0.0f);
+  alignas(64) int valid[16];
+  for (int lane = 0; lane < 16; ++lane) {
+    const int from = lane < count ? lane : 0;
+    valid[lane] = lane < count ? -1 : 0;
+    embree::set_lane(packet, lane, {origin, directions[from]});
+    packet.ray.tnear[lane] = t_near[from];
+    packet.ray.id[lane] = static_cast<unsigned>(from);
+  }
+  embree::clear_hits<16>(packet, t_far);
+  embree::query_beyond(valid, impl_->rtc, passed, packet);
   for (int lane = 0; lane < count; ++lane) hits[lane] = embree::lane_hit(packet, lane);
 }
 

@@ -2,12 +2,13 @@
 #include "harness/experiments/caustics.h"
 #include "harness/experiments/ssrm.h"
 #include "harness/experiments/ssrm_accuracy.h"
+#include "harness/experiments/ssrm_layers.h"
 
 namespace hybray {
 
 std::span<const Experiment> experiments() {
-  static const std::vector<Experiment> all = {ssrm_experiment(), caustics_experiment(),
-                                              ssrm_accuracy_experiment()};
+  static const std::vector<Experiment> all = {ssrm_experiment(), ssrm_accuracy_experiment(), ssrm_layers_experiment(),
+                                              caustics_experiment()};
   return all;
 }
 

@@ -39,6 +39,7 @@ const Tracer& Workspace::built(std::unique_ptr<Tracer>& tracer, const std::strin
   } else {
     Tracer::Config config;
     config.robust = robust;
+    config.layers = robust;
     config.high_quality =
         !robust;  // what is timed gets the best structure; truth needs the same answers, not the fastest
     tracer = std::make_unique<Tracer>(traced, config);

@@ -10,7 +10,7 @@ import unittest
 import xml.dom.minidom
 from pathlib import Path
 
-from synthetic import CAUSTICS, SSRM, changed, lights, rays, run, write
+from synthetic import CAUSTICS, LAYERS, SSRM, changed, lights, rays, run, write
 
 import matplotlib  # noqa: E402  (after synthetic: it says where the scripts are)
 
@@ -35,6 +35,8 @@ class Figures(unittest.TestCase):
                                            for i, (m, c, t, p) in enumerate([("paper", "none", "", 0.98), ("paper", "strict", "", 1),
                                                                              ("dda", "none", 0.1, 0.8), ("dda", "none", 1, 0.6),
                                                                              ("hiz", "none", 0.1, 0.9), ("hiz", "none", 1, 0)])])
+        write(self.root, "ssrm_layers", [changed(LAYERS, layers=n, guard_band=b, scene=s, alpha_gain=1 + 0.1 * n + b)
+                                         for n in (1, 2, 3) for b in (0, 0.25) for s in ("sphere", "bistro")])
         write(self.root, "caustics_rays_objects", rays() + [changed(r, scene="wine_glass", at_floor="true") for r in rays()])
         write(self.root, "caustics_depth_objects", [changed(CAUSTICS, mirror_depth=d, total_ms=d + 3) for d in (1, 2, 3, 4)])
         write(self.root, "caustics_lights", lights())
@@ -60,7 +62,7 @@ class Figures(unittest.TestCase):
         self.assertEqual(outputs[0].keys(), outputs[1].keys())
         for name, content in outputs[0].items():
             self.assertEqual(content, outputs[1][name], name)
-        for name in ("ssrm_times", "ssrm_verdicts", "ssrm_alpha", "ssrm_precision_recall", "ssrm_thickness", "caustics_onoff", "caustics_rays_objects",
+        for name in ("ssrm_times", "ssrm_verdicts", "ssrm_alpha", "ssrm_precision_recall", "ssrm_thickness", "ssrm_layers", "caustics_onoff", "caustics_rays_objects",
                      "caustics_depth_objects", "caustics_lights", "time_error_ssrm_tables", "time_error_caustics_rays_objects"):
             pdf, svg, png = (outputs[0][f"{name}.{kind}"] for kind in ("pdf", "svg", "png"))
             self.assertTrue(pdf.startswith(b"%PDF-") and png.startswith(b"\x89PNG"), name)
@@ -111,7 +113,7 @@ class Figures(unittest.TestCase):
         self.assertIn("made     ssrm_tables: ssrm_tables (txt, tex)\n", done.stdout)
         self.assertIn(f"skipped  caustics_lights: no caustics_lights.csv in {self.root}\n", done.stdout)
         self.assertIn("skipped  ssrm_verdicts: no pictures beside", done.stdout)
-        self.assertEqual(len(re.findall(r"^(made|skipped) ", done.stdout, re.MULTILINE)), 12)
+        self.assertEqual(len(re.findall(r"^(made|skipped) ", done.stdout, re.MULTILINE)), 13)
         self.assertFalse(list((self.root / "figures").glob("caustics*")))
 
     def test_names_file_and_column_and_draws_the_others(self):

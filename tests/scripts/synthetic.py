@@ -16,6 +16,10 @@ SSRM = {"id": "0", "scene": "sphere", "camera": "front", "width": "1280", "heigh
         "t_ss_ms": "4", "t_hw_ms": "10", "t_hw_single_ms": "20", "t_hybrid_ms": "12", "t_hybrid_single_ms": "18",
         "speedup_sequential": "1", "speedup_partitioned": "1.3", "speedup_measured": "0.8", "speedup_measured_vs_single": "1.1",
         "unresolved_cost_ratio": "1.2", "break_even_alpha": "0.4", "threads": "2"}
+# One row of `ssrm_layers`.
+LAYERS = {"id": "0", "scene": "sphere", "camera": "front", "width": "960", "height": "540", "layers": "1", "guard_band": "0",
+          "alpha": "0.4", "alpha_gain": "1.2", "precision": "0.98", "single_precision": "0.99", "buffer_bytes": "300",
+          "single_buffer_bytes": "100", "speedup_over_single_layer": "0.8", "threads": "2"}
 # One row of `caustics`.
 CAUSTICS = {"id": "0", "scene": "glass_ball", "camera": "front", "width": "320", "height": "180", "caustics": "true",
             "rays_per_texel": "1", "mirror_depth": "3", "lights_visible": "0", "lights_invisible": "1", "filter": "none",

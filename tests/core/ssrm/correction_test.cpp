@@ -60,7 +60,7 @@ void expect_float_accuracy(const Scene& scene, const Camera& camera, int width, 
           test::exact_hit(scene, 2 * wall, dvec3(v.rays.origin(i)), dvec3(v.rays.direction(i)), 1e30);
       ASSERT_TRUE(exact.has_value());
       const double claimed =
-          metrics::claimed_distance(v.depth(), v.screen_rays, v.rays, view, i, results.pixel[i]);
+          plane_distance(v.depth(), v.screen_rays, v.rays, view, i, results.pixel[i]);
       const double error = std::abs(claimed - *exact), bound = rounding_of(v, i, results.pixel[i], claimed);
       EXPECT_LE(error, bound) << "ray " << i << " claimed " << claimed << " exact " << *exact;
       worst = std::max(worst, error / *exact);
@@ -147,7 +147,7 @@ double median_sphere_error(int height) {
     const auto exact = s.sphere_hit(dvec3(rays.origin(i)), dvec3(rays.direction(i)));
     if (!exact) continue;
     errors.push_back(
-        std::abs(metrics::claimed_distance(depth, screen, rays, s.view, i, results.pixel[i]) / *exact - 1.0));
+        std::abs(plane_distance(depth, screen, rays, s.view, i, results.pixel[i]) / *exact - 1.0));
   }
   EXPECT_GT(errors.size(), rays.size() / 50);
   std::nth_element(errors.begin(), errors.begin() + static_cast<ptrdiff_t>(errors.size() / 2), errors.end());
