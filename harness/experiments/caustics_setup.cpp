@@ -1,4 +1,5 @@
 // What a point of `caustics` works on: view, G-buffer, settings and the lights that it uses.
+#include "core/tracer/seeded_camera.h"
 #include "core/base/error.h"
 #include "core/caustics/light_source.h"
 #include "core/caustics/medium_at.h"
@@ -73,7 +74,7 @@ Setup make_setup(const Point& point, Workspace& workspace) {
   View::Settings settings;
   settings.width = size.width, settings.height = size.height;
   settings.near = point.number("near");
-  const View view(find_camera(scene, camera), settings, scene.bounds);
+  const View view(camera_of(robust, camera), settings, scene.bounds);
   const bool filter = point.text("filter") == "wavelet";
   unsigned bits = kDepth | kDepthDerivatives | kShadingNormal | kPrimitive;
   if (filter && caustic_scene.optics.any_specular)
