@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/gbuffer/gbuffer.h"
+#include "core/ssrm/claimed_distance.h"
 #include "core/ssrm/correction.h"
 #include "core/truth/ray_truth.h"
 
@@ -36,10 +37,7 @@ struct Tolerance {
   double footprint_factor = 1.0;  // k of |t - t*| <= k footprint / max(0.1, |cos|)
 };
 
-// Distance along the ray at which a HIT claims to lie: the ray's intersection with the accepted pixel's
-// plane, metres.
-double claimed_distance(const ssrm::DepthView& depth, const ssrm::ScreenRays& screen_rays,
-                        const RayStream& rays, const View& view, size_t ray, uint32_t pixel);
+using ssrm::claimed_distance;
 
 // Classifies every ray. The G-buffer must hold primitives, whose normals give the cosine. If `classes` is not
 // null it receives one entry a ray.
