@@ -14,7 +14,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 
 try:
-    from figures import caustics, pictures, ssrm, time_error
+    from figures import caustics, pictures, ssrm, ssrm_rays, time_error
     from figures.results import Results, Skip
     from inputs import InputError
 except ModuleNotFoundError as missing:
@@ -28,6 +28,8 @@ FIGURES: dict[str, Draw] = {
     "ssrm_verdicts": pictures.draw_verdicts,
     "ssrm_alpha": ssrm.draw_alpha,
     "ssrm_precision_recall": ssrm.draw_precision_recall,
+    "ssrm_breakeven": ssrm_rays.draw_break_even,
+    "ssrm_distribution": ssrm_rays.draw_distribution,
     "caustics_onoff": pictures.draw_onoff,
     "caustics_rays": partial(caustics.draw_rays, name="caustics_rays"),
     "caustics_rays_objects": partial(caustics.draw_rays, name="caustics_rays_objects"),

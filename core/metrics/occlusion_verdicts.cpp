@@ -6,15 +6,20 @@ namespace hybray::metrics {
 
 using ssrm::Verdict;
 
-VerdictTable judge_occlusion(const ssrm::MarchResults& results, const truth::RayTruth& truth) {
+VerdictTable judge_occlusion(const ssrm::MarchResults& results, const truth::RayTruth& truth,
+                             std::vector<HitClass>* classes) {
   HYBRAY_CHECK_EQ(results.size(), truth.size());
   VerdictTable table;
   table.rays = results.size();
+  if (classes) classes->assign(results.size(), HitClass::none);
   for (size_t i = 0; i < results.size(); ++i) {
     const Verdict verdict = results.verdict[i];
     ++table.verdicts[static_cast<size_t>(verdict)];
     const bool occluded = truth.hits.primitive[i] != kNoPrimitive;
-    if (verdict == Verdict::hit) ++(occluded ? table.right : table.phantom);
+    if (verdict == Verdict::hit) {
+      ++(occluded ? table.right : table.phantom);
+      if (classes) (*classes)[i] = occluded ? HitClass::right : HitClass::phantom;
+    }
     if (verdict == Verdict::miss && occluded) ++table.false_misses;
   }
   return table;

@@ -14,7 +14,7 @@ double ggx_density(const dvec3& h, double alpha);
 double ggx_visible_share(const dvec3& v, double alpha);
 
 // A normal as seen from unit `v` with v.z > 0, by two numbers in [0, 1); alpha >= 0. At alpha = 0 it is the
-// z axis exactly.
+// z axis.
 dvec3 sample_visible_normal(const dvec3& v, double alpha, double a, double b);
 
 // Its density over solid angle: D(h) G1(v) max(0, v.h) / v.z. alpha > 0.

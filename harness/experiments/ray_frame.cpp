@@ -64,9 +64,9 @@ RayFrame::RayFrame(const Point& point, const SsrmSetup& setup, uint64_t seed)
     ssrm::march_paper(depth(), b.screen_rays, b.rays.pixel, march, b.results);
     ssrm::compact_unresolved(b.results, b.unresolved);
     const truth::RayTruth truth = truth::trace_truth(setup.robust, b.rays, setup.view, b.lengths);
-    b.table = occlusion() ? metrics::judge_occlusion(b.results, truth)
+    b.table = occlusion() ? metrics::judge_occlusion(b.results, truth, &b.classes)
                           : metrics::judge(b.results, depth(), b.screen_rays, b.rays, truth, gbuffer,
-                                           setup.scene, {point.number("footprint_factor")});
+                                           setup.scene, {point.number("footprint_factor")}, &b.classes);
     table = bounce == 0 ? b.table : metrics::sum(table, b.table);
     rays += b.rays.size(), unresolved += b.unresolved.size(), steps += b.results.steps;
     for (uint32_t primitive : truth.hits.primitive) truly_hit += primitive != kNoPrimitive;

@@ -23,6 +23,7 @@ struct RayBounce {
   ssrm::ScreenRays screen_rays;
   ssrm::MarchResults results;
   metrics::VerdictTable table;
+  std::vector<metrics::HitClass> classes;  // what each HIT is
   std::vector<uint32_t> unresolved;
   size_t unseen = 0;  // rays that start where the view sees something else
 };

@@ -3,6 +3,7 @@
 #include "harness/experiments/cells.h"
 #include "harness/experiments/columns.h"
 #include "harness/experiments/parameters.h"
+#include "harness/experiments/ray_picture.h"
 #include "harness/experiments/ray_times.h"
 
 namespace hybray {
@@ -11,6 +12,9 @@ namespace {
 std::vector<Parameter> parameters() {
   std::vector<Parameter> p = ray_parameters();
   p.push_back(parameter::repeats());
+  p.push_back(parameter::flag("picture", false,
+                              "Write a picture of the verdicts of each bounce at the pixels that its rays start from: "
+                              "grey = right HIT, red = false HIT, light blue = MISS, blue = unknown, black = no ray."));
   return p;
 }
 
@@ -77,6 +81,7 @@ Row run(const Point& point, Workspace& workspace) {
   const RayFrame& frame = shared_ray_frame(point, workspace, setup);
   Row row;
   add_ray_cells(row, point, setup, frame);
+  if (point.boolean("picture")) write_ray_pictures(point, workspace, frame);
   const auto repeats = static_cast<int>(point.integer("repeats"));
   row["repeats"] = int64_t{repeats};
   if (workspace.settings().timing && frame.rays > 0)
