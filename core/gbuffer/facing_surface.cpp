@@ -35,7 +35,8 @@ FacingSurface facing_surface(const Scene& scene, uint32_t primitive, const dvec3
 FacingSurface seen_surface(const GBuffer& g, const Scene& scene, int x, int y) {
   const uint32_t primitive = g.primitive(x, y);
   return facing_surface(scene, primitive, seen_point(g.view, scene, primitive, x + 0.5, y + 0.5),
-                        dvec3(g.shading_normal(x, y)), glm::normalize(g.view.ray_direction(x + 0.5, y + 0.5)));
+                        dvec3(g.shading_normal(x, y)),
+                        glm::normalize(g.view.ray_direction(x + 0.5, y + 0.5)));
 }
 
 MirrorDirection mirror_direction(const FacingSurface& s) {

@@ -55,8 +55,8 @@ OneRay toward_light(const FacingSurface& s, const Light& light) {
     const double distance = glm::length(way);
     if (!(distance > 0.0)) return {};
     ray.direction = way / distance, ray.length = distance * kBeforeLight;
-    if (light.kind == LightKind::spot &&
-        -glm::dot(ray.direction, dvec3(light.direction)) < std::cos(static_cast<double>(light.outer_cone_angle)))
+    if (light.kind == LightKind::spot && -glm::dot(ray.direction, dvec3(light.direction)) <
+                                             std::cos(static_cast<double>(light.outer_cone_angle)))
       return {};
   }
   return ray;
@@ -73,8 +73,8 @@ OneRay make_ray(const FacingSurface& s, const Scene& scene, const PixelRaySettin
     case RayKind::rough:
       return about_a_normal(s, [&](const dvec3& normal) {
         const Frame frame(normal);
-        const dvec3 h = frame.to_world(sample_visible_normal(
-            frame.to_local(-s.incoming), settings.roughness * settings.roughness, a, b));
+        const dvec3 h = frame.to_world(sample_visible_normal(frame.to_local(-s.incoming),
+                                                             settings.roughness * settings.roughness, a, b));
         return glm::normalize(s.incoming - 2.0 * glm::dot(s.incoming, h) * h);
       });
     case RayKind::ambient:

@@ -23,10 +23,10 @@ enum class RayKind : uint8_t {
 
 struct PixelRaySettings {
   RayKind kind = RayKind::mirror;
-  int rays_per_pixel = 1;   // >= 1; a mirror has one
-  double roughness = 0.3;   // of glTF: GGX's alpha is its square; 0 is a mirror
-  double length = 1.0;      // of ambient rays, metres
-  dvec3 to_sun{0.0};        // unit direction toward the sun; zero: the scene's lights, of which there must be one
+  int rays_per_pixel = 1;  // >= 1; a mirror has one
+  double roughness = 0.3;  // of glTF: GGX's alpha is its square; 0 is a mirror
+  double length = 1.0;     // of ambient rays, metres
+  dvec3 to_sun{0.0};  // unit direction toward the sun; zero: the scene's lights, of which there must be one
   uint64_t seed = 1;
 };
 

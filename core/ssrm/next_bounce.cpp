@@ -35,7 +35,8 @@ dvec3 shading_normal_at(const Scene& scene, uint32_t primitive, const dvec3& p) 
 }
 
 // The pixel that shows this point of a primitive, if there is one.
-std::optional<uint32_t> pixel_that_shows(const GBuffer& g, const Scene& scene, uint32_t primitive, const dvec3& p) {
+std::optional<uint32_t> pixel_that_shows(const GBuffer& g, const Scene& scene, uint32_t primitive,
+                                         const dvec3& p) {
   const double w = g.view.view_depth(p);
   if (!(w >= g.view.near() && w <= g.view.far())) return {};
   const dvec2 at = g.view.project(p);
@@ -83,10 +84,9 @@ NextBounce next_bounce(const GBuffer& g, const Scene& scene, const DepthView& de
       const dvec3 p = onto_primitive(scene, primitive, dvec3(rays.origin(i)) + t * direction);
       const std::optional<uint32_t> pixel =
           resolved ? results.pixel[i] : pixel_that_shows(g, scene, primitive, p);
-      const FacingSurface surface =
-          facing_surface(scene, primitive, p,
-                         resolved ? dvec3(g.shading_normal[*pixel]) : shading_normal_at(scene, primitive, p),
-                         direction);
+      const FacingSurface surface = facing_surface(
+          scene, primitive, p,
+          resolved ? dvec3(g.shading_normal[*pixel]) : shading_normal_at(scene, primitive, p), direction);
       const MirrorDirection mirror = mirror_direction(surface);
       next.rays.set(i, surface.origin, vec3(mirror.direction), pixel.value_or(0));
       shown[i] = pixel.has_value();

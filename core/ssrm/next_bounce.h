@@ -3,9 +3,10 @@
 // A HIT launches the next reflection from its accepted pixel: from the ray's claimed point, moved onto the
 // plane of the primitive that the pixel holds, about the pixel's shading normal. A ray that the general
 // tracer answered is reflected at that tracer's hit, about the shading normal interpolated there. If the view
-// shows that point (it projects into a pixel that holds the same primitive, at its depth) the next ray marches from that
-// pixel; otherwise nothing is known of its surroundings, and it goes straight to the general tracer: its
-// screen ray is one that ends where it starts, offscreen. A ray that hits nothing ends its path.
+// shows that point (it projects into a pixel that holds the same primitive, at its depth) the next ray
+// marches from that pixel; otherwise nothing is known of its surroundings, and it goes straight to the
+// general tracer: its screen ray is one that ends where it starts, offscreen. A ray that hits nothing ends
+// its path.
 #pragma once
 
 #include "core/gbuffer/gbuffer.h"

@@ -91,7 +91,8 @@ inline void occlude_one_by_one(RTCScene scene, size_t begin, size_t end, const O
   }
 }
 
-inline void occlude_rays(RTCScene scene, TraceMode mode, size_t begin, size_t end, const OcclusionList& list) {
+inline void occlude_rays(RTCScene scene, TraceMode mode, size_t begin, size_t end,
+                         const OcclusionList& list) {
   const bool coherent = mode >= TraceMode::packet4_coherent;
   switch (mode) {
     case TraceMode::single:

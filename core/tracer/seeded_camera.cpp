@@ -47,7 +47,8 @@ struct Surroundings {
   }
   double covered() const { return static_cast<double>(hits) / static_cast<double>(distances.size()); }
   double nearer_than(float distance) const {
-    const auto near = std::count_if(distances.begin(), distances.end(), [&](float t) { return t < distance; });
+    const auto near =
+        std::count_if(distances.begin(), distances.end(), [&](float t) { return t < distance; });
     return static_cast<double>(near) / static_cast<double>(distances.size());
   }
   bool mostly_fronts() const { return 10 * backs <= hits; }
@@ -69,7 +70,8 @@ class Placement {
     Camera camera;
     camera.name = seeded_camera_name(number_);
     camera.eye = eye;
-    camera.target = eye + vec3(std::cos(pitch) * std::sin(yaw), std::sin(pitch), std::cos(pitch) * std::cos(yaw));
+    camera.target =
+        eye + vec3(std::cos(pitch) * std::sin(yaw), std::sin(pitch), std::cos(pitch) * std::cos(yaw));
     const float wanted = 0.8f * std::pow(0.5f, static_cast<float>(attempt / kDrawsBeforeLess));
     if (!sees_enough(camera, wanted)) return {};
     return camera;
@@ -192,7 +194,8 @@ Camera seeded_camera(const Tracer& tracer, uint32_t number, uint64_t seed) {
   Placement placement(tracer, number, seed);
   for (uint32_t attempt = 0; attempt < kMostDraws; ++attempt)
     if (std::optional<Camera> camera = placement.draw(attempt)) return *camera;
-  throw InputError("scene " + tracer.scene().name, "no place was found for the camera " + seeded_camera_name(number) +
+  throw InputError("scene " + tracer.scene().name, "no place was found for the camera " +
+                                                       seeded_camera_name(number) +
                                                        "; expected free space from which surfaces are seen");
 }
 

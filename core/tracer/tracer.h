@@ -65,9 +65,9 @@ class Tracer {
   void trace_some(const RayStream& rays, std::span<const uint32_t> which, HitStream& hits,
                   TraceMode mode) const;
 
-  // Whether anything is in the way of each of rays.size() rays, all threads: 1 or 0 into `occluded` (resized by
-  // the caller, same size). Rays start at t = 0 and end at their `lengths`, metres, or, where that is empty,
-  // nowhere.
+  // Whether anything is in the way of each of rays.size() rays, all threads: 1 or 0 into `occluded` (resized
+  // by the caller, same size). Rays start at t = 0 and end at their `lengths`, metres, or, where that is
+  // empty, nowhere.
   void occlude(const RayStream& rays, std::span<const float> lengths, std::vector<uint8_t>& occluded,
                TraceMode mode) const;
 

@@ -1,8 +1,8 @@
 // What a point of `caustics` works on: view, G-buffer, settings and the lights that it uses.
-#include "core/tracer/seeded_camera.h"
 #include "core/base/error.h"
 #include "core/caustics/light_source.h"
 #include "core/caustics/medium_at.h"
+#include "core/tracer/seeded_camera.h"
 #include "harness/experiments/caustics.h"
 #include "harness/experiments/resolution.h"
 #include "harness/experiments/workspace.h"

@@ -15,8 +15,8 @@ inline std::filesystem::path picture_file(const Point& point, const Workspace& w
   std::filesystem::create_directories(folder);
   std::string camera = point.text("camera");
   std::replace(camera.begin(), camera.end(), '/', '-');  // of a seeded camera
-  return folder / (point.text("scene") + "_" + camera + "_" + point.text("resolution") + "_" +
-                   point.id + suffix + ".png");
+  return folder / (point.text("scene") + "_" + camera + "_" + point.text("resolution") + "_" + point.id +
+                   suffix + ".png");
 }
 
 }  // namespace hybray

@@ -31,17 +31,20 @@ std::vector<Parameter> ray_parameters() {
           choice("ray_kind", "mirror", {"mirror", "rough", "ambient", "shadow"},
                  "Perfect reflections, GGX-sampled rough ones, short cosine-weighted occlusion rays, or rays "
                  "toward the lights."),
-          number("roughness", "", 0.3, 0.0, 1.0, "Roughness of rough reflections; GGX's alpha is its square."),
+          number("roughness", "", 0.3, 0.0, 1.0,
+                 "Roughness of rough reflections; GGX's alpha is its square."),
           integer("rays_per_pixel", "", 1, 1, 64, "Rays of each covered pixel; a mirror has one."),
           number("length", "m", 1.0, 1e-6, 1e6, "Length of ambient rays."),
           choice("light", "scene", {"scene", "sun"},
                  "Shadow rays go to the scene's lights, one picked for each ray, or to a sun."),
           number("sun_elevation", "degrees", 45.0, 0.0, 90.0, "Height of the sun above the horizon."),
           number("sun_azimuth", "degrees", 30.0, 0.0, 360.0, "Direction of the sun, from +x toward +z."),
-          integer("mirror_depth", "", 1, 1, kMostBounces, "Reflections along a path of mirror rays; others have one."),
+          integer("mirror_depth", "", 1, 1, kMostBounces,
+                  "Reflections along a path of mirror rays; others have one."),
           choice("marcher", "paper", {"paper"}, "Screen-space marcher."),
-          choice("march_code", "lanes", {"scalar", "lanes"},
-                 "Marcher as scalar code, or many rays at a time in vector lanes: the same results, less time."),
+          choice(
+              "march_code", "lanes", {"scalar", "lanes"},
+              "Marcher as scalar code, or many rays at a time in vector lanes: the same results, less time."),
           number("footprint_factor", "", 1.0, 1e-3, 1e3, "k of the tolerance that makes a HIT right."),
       });
   return p;
@@ -68,10 +71,12 @@ void add_ray_columns(std::vector<Column>& c) {
              key("marcher", "screen-space marcher"),
              key("march_code", "scalar code or vector lanes"),
              key("footprint_factor", "k of the tolerance"),
-             follows_rays(counted("rays_skipped", "rays that could not leave their surface, or do not reach their light")),
+             follows_rays(counted("rays_skipped",
+                                  "rays that could not leave their surface, or do not reach their light")),
              share_of_rays("unseen_fraction", none,
                            "rays that start at a point the view does not show, and are not marched / rays"),
-             share_of_rays("truly_hit_fraction", none, "rays that truly hit something (within their length) / rays"),
+             share_of_rays("truly_hit_fraction", none,
+                           "rays that truly hit something (within their length) / rays"),
          });
   add_verdict_columns(c);
   for (int b = 1; b <= kMostBounces; ++b) {
@@ -84,12 +89,18 @@ void add_ray_columns(std::vector<Column>& c) {
     precision.name = "precision_bounce_" + n, precision.text = "right HITs / HITs of bounce " + n;
     add(c, {follows_rays(rays), alpha, precision});
   }
-  c.push_back(
-      {"steps_per_ray", "1", ColumnKind::metric, lower, "depth samples read / rays", {}, {0.0, 10 * kMovedRays}});
+  c.push_back({"steps_per_ray",
+               "1",
+               ColumnKind::metric,
+               lower,
+               "depth samples read / rays",
+               {},
+               {0.0, 10 * kMovedRays}});
 }
 
 void add_ray_cells(Row& row, const Point& point, const SsrmSetup& setup, const RayFrame& f) {
-  for (const char* name : {"scene", "camera", "depth_convention", "derivatives", "ray_kind", "marcher", "march_code"})
+  for (const char* name :
+       {"scene", "camera", "depth_convention", "derivatives", "ray_kind", "marcher", "march_code"})
     row[name] = point.text(name);
   row["width"] = int64_t{setup.view.width()};
   row["height"] = int64_t{setup.view.height()};

@@ -71,8 +71,8 @@ RayFrame::RayFrame(const Point& point, const SsrmSetup& setup, uint64_t seed)
     rays += b.rays.size(), unresolved += b.unresolved.size(), steps += b.results.steps;
     for (uint32_t primitive : truth.hits.primitive) truly_hit += primitive != kNoPrimitive;
     if (bounce + 1 == depth_wanted) break;
-    ssrm::NextBounce reflected = ssrm::next_bounce(gbuffer, setup.scene, depth(), b.rays, b.screen_rays,
-                                                   b.results, truth.hits);
+    ssrm::NextBounce reflected =
+        ssrm::next_bounce(gbuffer, setup.scene, depth(), b.rays, b.screen_rays, b.results, truth.hits);
     next = {};
     next.rays = std::move(reflected.rays), next.screen_rays = std::move(reflected.screen_rays);
     next.unseen = reflected.unseen;

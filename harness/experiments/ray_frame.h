@@ -1,5 +1,5 @@
-// What the experiments on kinds of rays share: the rays of a point, bounce by bounce, with verdicts and truth,
-// and the parameters and columns that go with them.
+// What the experiments on kinds of rays share: the rays of a point, bounce by bounce, with verdicts and
+// truth, and the parameters and columns that go with them.
 #pragma once
 
 #include "core/gbuffer/pixel_rays.h"

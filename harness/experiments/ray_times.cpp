@@ -41,7 +41,8 @@ class RayTiming {
         {"pyramid", [&] { build_pyramid(); }},
         {"ss", [&] { each([&](size_t b) { march(b); }); }},
         {"hw", [&] { each([&](size_t b) { trace_all(b, modes_[b]); }); }},
-        {"unresolved", [&] { each([&](size_t b) { trace_list(b, frame_.bounces[b].unresolved, modes_left_[b]); }); }},
+        {"unresolved",
+         [&] { each([&](size_t b) { trace_list(b, frame_.bounces[b].unresolved, modes_left_[b]); }); }},
         {"hybrid", [&] { hybrid(modes_left_); }},
     };
     const std::vector<TraceMode> single(frame_.bounces.size(), TraceMode::single);

@@ -28,7 +28,8 @@ RayTimes time_rays(const Tracer& tracer, const RayFrame& frame, std::optional<Tr
 // mean ray, the conditional-cost estimate T_SS + (1 - alpha) c T_HW is T_SS plus the time of the unresolved.
 struct RayEstimates {
   std::vector<double> sequential, partitioned, conditional;
-  std::vector<double> cost_per_unresolved, cost_per_ray;  // ms a ray; the first is empty without unresolved rays
+  std::vector<double> cost_per_unresolved,
+      cost_per_ray;  // ms a ray; the first is empty without unresolved rays
 };
 RayEstimates estimate(const RayFrame& frame, const RayTimes& times);
 

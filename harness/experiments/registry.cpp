@@ -7,8 +7,8 @@
 namespace hybray {
 
 std::span<const Experiment> experiments() {
-  static const std::vector<Experiment> all = {ssrm_experiment(), ssrm_rays_experiment(), ssrm_breakeven_experiment(),
-                                              caustics_experiment()};
+  static const std::vector<Experiment> all = {ssrm_experiment(), ssrm_rays_experiment(),
+                                              ssrm_breakeven_experiment(), caustics_experiment()};
   return all;
 }
 

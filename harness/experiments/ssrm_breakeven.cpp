@@ -16,9 +16,10 @@ std::vector<Parameter> parameters() {
   std::vector<Parameter> p = ray_parameters();
   std::vector<std::string> modes = {kFastest};
   for (TraceMode mode : kAllTraceModes) modes.push_back(label(mode));
-  p.push_back(parameter::choice("tracer_mode", kFastest, modes,
-                                "How all rays, and in the hybrid the unresolved ones, are handed to the general "
-                                "tracer; the fastest is found by measurement for each list of rays."));
+  p.push_back(
+      parameter::choice("tracer_mode", kFastest, modes,
+                        "How all rays, and in the hybrid the unresolved ones, are handed to the general "
+                        "tracer; the fastest is found by measurement for each list of rays."));
   p.push_back(parameter::repeats());
   return p;
 }
@@ -34,7 +35,8 @@ std::vector<Column> columns() {
   c.push_back(finding("hw_mode_unresolved", "the same for the unresolved rays", Comparison::none));
   add_time(c, "t_ss", "SSRM on all rays, all bounces");
   add_time(c, "t_hw", "general tracer on all rays in this mode");
-  add_time(c, "t_hybrid", "measured hybrid: pyramid, and for each bounce march, compaction, trace, write-back");
+  add_time(c, "t_hybrid",
+           "measured hybrid: pyramid, and for each bounce march, compaction, trace, write-back");
   add_ratio(c, "break_even_alpha", "T_SS / T_HW", lower);
   add_ratio(c, "unresolved_cost_ratio", "c: cost of an unresolved ray relative to the mean ray", none);
   add_ratio(c, "speedup_sequential", "T_HW / (T_SS + (1 - alpha) T_HW), the paper's formula");
@@ -42,8 +44,9 @@ std::vector<Column> columns() {
   add_ratio(c, "speedup_conditional", "T_HW / (T_SS + (1 - alpha) c T_HW)");
   add_ratio(c, "speedup_measured", "T_HW / t_hybrid");
   for (const char* name : {"pays_sequential", "pays_partitioned", "pays_conditional", "pays_measured"})
-    c.push_back(finding(name, "yes or no: whether the interval of the speedup of that name lies above or below 1; "
-                              "unclear where 1 is inside",
+    c.push_back(finding(name,
+                        "yes or no: whether the interval of the speedup of that name lies above or below 1; "
+                        "unclear where 1 is inside",
                         Comparison::none));
   add_repeats(c);
   return c;
@@ -110,15 +113,15 @@ std::vector<SharedCost> shared_costs(const Point& point, const SceneFacts& scene
 }  // namespace
 
 const Experiment& ssrm_breakeven_experiment() {
-  static const Experiment experiment{
-      "ssrm_breakeven",
-      "Whether the hybrid pays, for each kind of rays and mode of the general tracer, and which formula says so.",
-      parameters(),
-      columns(),
-      run,
-      ray_memory_bytes,
-      cost_seconds,
-      shared_costs};
+  static const Experiment experiment{"ssrm_breakeven",
+                                     "Whether the hybrid pays, for each kind of rays and mode of the general "
+                                     "tracer, and which formula says so.",
+                                     parameters(),
+                                     columns(),
+                                     run,
+                                     ray_memory_bytes,
+                                     cost_seconds,
+                                     shared_costs};
   return experiment;
 }
 

@@ -12,9 +12,10 @@ namespace {
 std::vector<Parameter> parameters() {
   std::vector<Parameter> p = ray_parameters();
   p.push_back(parameter::repeats());
-  p.push_back(parameter::flag("picture", false,
-                              "Write a picture of the verdicts of each bounce at the pixels that its rays start from: "
-                              "grey = right HIT, red = false HIT, light blue = MISS, blue = unknown, black = no ray."));
+  p.push_back(parameter::flag(
+      "picture", false,
+      "Write a picture of the verdicts of each bounce at the pixels that its rays start from: "
+      "grey = right HIT, red = false HIT, light blue = MISS, blue = unknown, black = no ray."));
   return p;
 }
 
@@ -28,10 +29,12 @@ std::vector<Column> columns() {
   add_time(c, "t_hw", "general tracer on all rays in its fastest mode");
   add_time(c, "t_hw_single", "general tracer on all rays, one ray at a time");
   add_time(c, "t_unresolved", "general tracer on the unresolved rays in their fastest mode");
-  add_time(c, "t_hybrid", "measured hybrid: pyramid, and for each bounce march, compaction, trace, write-back");
+  add_time(c, "t_hybrid",
+           "measured hybrid: pyramid, and for each bounce march, compaction, trace, write-back");
   add_time(c, "t_hybrid_single", "the same with the unresolved rays traced one at a time");
-  c.push_back(finding("hw_mode", "fastest mode of the general tracer for all rays, by measurement; one for each "
-                                 "bounce where they differ",
+  c.push_back(finding("hw_mode",
+                      "fastest mode of the general tracer for all rays, by measurement; one for each "
+                      "bounce where they differ",
                       Comparison::none));
   c.push_back(finding("hw_mode_unresolved", "the same for the unresolved rays", Comparison::none));
   add(c, {
@@ -44,8 +47,8 @@ std::vector<Column> columns() {
   add_ratio(c, "speedup_conditional", "T_HW / (T_SS + (1 - alpha) c T_HW), c = unresolved_cost_ratio");
   add_ratio(c, "speedup_measured", "T_HW / t_hybrid, both in their fastest modes");
   add_ratio(c, "speedup_measured_vs_single", "t_hw_single / t_hybrid_single: like against like");
-  add_ratio(c, "unresolved_cost_ratio", "cost of an unresolved ray relative to the mean ray; the paper assumes 1",
-            none);
+  add_ratio(c, "unresolved_cost_ratio",
+            "cost of an unresolved ray relative to the mean ray; the paper assumes 1", none);
   add_ratio(c, "break_even_alpha", "T_SS / T_HW: alpha from which the paper's formula gains", lower);
   add_repeats(c);
   return c;

@@ -20,7 +20,8 @@ struct Floor {
 
 GBuffer seen(const Scene& scene, int width, int height) {
   const Tracer tracer(scene, {.robust = true});
-  const View view(Camera{"c", vec3(0, 2, 4), vec3(0, 0, -6)}, {.width = width, .height = height}, scene.bounds);
+  const View view(Camera{"c", vec3(0, 2, 4), vec3(0, 0, -6)}, {.width = width, .height = height},
+                  scene.bounds);
   return make_gbuffer(tracer, view, kNeeded);
 }
 
@@ -64,7 +65,8 @@ TEST(PixelRays, OfEveryKindLeaveTheSurfaceAndRepeatThemselves) {
       EXPECT_NEAR(glm::length(dvec3(a.rays.direction(i))), 1.0, 1e-6);
       if (kind == RayKind::ambient) EXPECT_EQ(a.lengths[i], 0.7f);
       if (kind == RayKind::shadow) {
-        const dvec3 end = dvec3(a.rays.origin(i)) + static_cast<double>(a.lengths[i]) * dvec3(a.rays.direction(i));
+        const dvec3 end =
+            dvec3(a.rays.origin(i)) + static_cast<double>(a.lengths[i]) * dvec3(a.rays.direction(i));
         EXPECT_NEAR(glm::length(end - dvec3(1, 5, 2)), 1e-4 * a.lengths[i], 1e-5);
       }
     }

@@ -51,7 +51,8 @@ TEST(Ggx, NormalsAreDrawnWithTheDensityOfVisibleNormals) {
       const dvec3 v = direction(cosine, 0.7);
       std::array<double, kRows * kColumns> observed{};
       for (uint32_t i = 0; i < kSamples; ++i) {
-        const dvec3 h = sample_visible_normal(v, alpha, random_unit(i, 0, 0, kSeed), random_unit(i, 1, 0, kSeed));
+        const dvec3 h =
+            sample_visible_normal(v, alpha, random_unit(i, 0, 0, kSeed), random_unit(i, 1, 0, kSeed));
         EXPECT_NEAR(glm::dot(h, h), 1.0, 1e-12);
         const double phi = std::atan2(h.y, h.x) + (h.y < 0.0 ? 2.0 * kPi : 0.0);
         const int row = std::min(kRows - 1, static_cast<int>(h.z * kRows)),
@@ -62,9 +63,9 @@ TEST(Ggx, NormalsAreDrawnWithTheDensityOfVisibleNormals) {
       int cells = 0;
       for (int r = 0; r < kRows; ++r) {
         for (int c = 0; c < kColumns; ++c) {
-          const double share = over_hemisphere([&](const dvec3& h) { return visible_normal_pdf(h, v, alpha); },
-                                               static_cast<double>(r) / kRows, (r + 1.0) / kRows,
-                                               2.0 * kPi * c / kColumns, 2.0 * kPi * (c + 1.0) / kColumns, 40);
+          const double share = over_hemisphere(
+              [&](const dvec3& h) { return visible_normal_pdf(h, v, alpha); }, static_cast<double>(r) / kRows,
+              (r + 1.0) / kRows, 2.0 * kPi * c / kColumns, 2.0 * kPi * (c + 1.0) / kColumns, 40);
           const double expected = kSamples * share, seen = observed[static_cast<size_t>(r * kColumns + c)];
           if (expected < 8.0) {
             rest_expected += expected, rest_observed += seen;
@@ -88,7 +89,8 @@ TEST(Ggx, NormalsAreDrawnWithTheDensityOfVisibleNormals) {
 TEST(Ggx, ASmoothSurfaceHasOneNormal) {
   for (double cosine : {1.0, 0.5, 0.01}) {
     for (uint32_t i = 0; i < 100; ++i) {
-      const dvec3 h = sample_visible_normal(direction(cosine, 2.0), 0.0, random_unit(i, 0), random_unit(i, 1));
+      const dvec3 h =
+          sample_visible_normal(direction(cosine, 2.0), 0.0, random_unit(i, 0), random_unit(i, 1));
       EXPECT_EQ(h.x, 0.0);
       EXPECT_EQ(h.y, 0.0);
       EXPECT_NEAR(h.z, 1.0, 0x1p-52);  // the length is divided out

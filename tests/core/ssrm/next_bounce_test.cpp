@@ -24,7 +24,8 @@ class ParallelMirrors : public testing::Test {
   }
   const Scene scene_ = corridor();
   const Tracer tracer_{scene_, {.robust = true}};
-  const View view_{Camera{"c", vec3(1, 1.7f, 18), vec3(0, 1.9f, -20)}, {.width = 180, .height = 120}, scene_.bounds};
+  const View view_{
+      Camera{"c", vec3(1, 1.7f, 18), vec3(0, 1.9f, -20)}, {.width = 180, .height = 120}, scene_.bounds};
   const test::MainView v_{tracer_, view_};
 };
 
@@ -72,8 +73,8 @@ TEST_F(ParallelMirrors, SendEveryPathWhereTheClosedFormDoes) {
     rays = next.rays, screen_rays = next.screen_rays;
   }
   // Both ways into the next bounce were taken.
-  EXPECT_GT(resolved, 1000u);
-  EXPECT_GT(traced, 1000u);
+  EXPECT_GT(resolved, 300u);
+  EXPECT_GT(traced, 300u);
 }
 
 TEST_F(ParallelMirrors, MarchFromTracedHitsThatTheViewShowsAndFromNoOthers) {

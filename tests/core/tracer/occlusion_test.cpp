@@ -67,7 +67,8 @@ TEST(Occlusion, WithoutLengthsAsksForAnyHit) {
   tracer.trace(shot.rays, hits, TraceMode::single);
   std::vector<uint8_t> occluded(shot.rays.size());
   tracer.occlude(shot.rays, {}, occluded, TraceMode::packet8);
-  for (size_t i = 0; i < occluded.size(); ++i) EXPECT_EQ(occluded[i] != 0, hits.primitive[i] != kNoPrimitive) << i;
+  for (size_t i = 0; i < occluded.size(); ++i)
+    EXPECT_EQ(occluded[i] != 0, hits.primitive[i] != kNoPrimitive) << i;
 }
 
 }  // namespace

@@ -43,8 +43,8 @@ Scene room_with_block() {
     const auto side = [&](const vec3& corner, const vec3& u, const vec3& v) {
       outward ? test::add_rectangle(scene, corner, u, v) : test::add_rectangle(scene, corner, v, u);
     };
-    side(lower, x, z), side(lower, z, y), side(lower, y, x);                 // cross products point down each axis
-    side(upper, -z, -x), side(upper, -y, -z), side(upper, -x, -y);           // and up
+    side(lower, x, z), side(lower, z, y), side(lower, y, x);        // cross products point down each axis
+    side(upper, -z, -x), side(upper, -y, -z), side(upper, -x, -y);  // and up
   };
   box({0, 0, 0}, {8, 4, 8}, false);
   box({2.5f, 0, 2.5f}, {5.5f, 3, 5.5f}, true);
@@ -56,7 +56,8 @@ TEST(SeededCamera, StandsOnTheFloorOutsideClosedBodies) {
   const Tracer tracer(scene, {.robust = true});
   for (uint32_t number = 0; number < 64; ++number) {
     const vec3 eye = seeded_camera(tracer, number).eye;
-    // The scene's bounds have a diagonal of 12 m, so lengths are metres. On top of the block there is no room.
+    // The scene's bounds have a diagonal of 12 m, so lengths are metres. On top of the block there is no
+    // room.
     EXPECT_GE(eye.y, 1.5f - 1e-5f) << number;
     EXPECT_LE(eye.y, 1.8f + 1e-5f) << number;
     for (int axis : {0, 2}) {

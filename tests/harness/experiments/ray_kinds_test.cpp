@@ -80,7 +80,8 @@ TEST_F(RayKindsTest, LongerAmbientRaysAreOccludedMoreOften) {
 }
 
 TEST_F(RayKindsTest, BouncesAddUp) {
-  const Row row = rays({{"mirror_depth", int64_t{3}}, {"resolution", text("333x217")}}), one = rays({{"resolution", text("333x217")}});
+  const Row row = rays({{"mirror_depth", int64_t{3}}, {"resolution", text("333x217")}}),
+            one = rays({{"resolution", text("333x217")}});
   EXPECT_EQ(row.at("alpha_bounce_1"), one.at("alpha"));
   EXPECT_EQ(integer(row, "rays_bounce_1") + integer(row, "rays_bounce_2") + integer(row, "rays_bounce_3"),
             integer(row, "rays"));
@@ -100,8 +101,12 @@ TEST_F(RayKindsTest, EveryCellTheyFillIsADeclaredColumn) {
     for (const Column& column : experiment->columns) declared.insert(column.name);
     EXPECT_EQ(declared.size(), experiment->columns.size()) << "no name twice";
     for (const char* kind : {"mirror", "rough", "ambient", "shadow"})
-      for (const auto& [name, value] :
-           run(*experiment, {{"ray_kind", text(kind)}, {"light", text("sun")}, {"mirror_depth", int64_t{4}}, {"repeats", int64_t{2}}}, true))
+      for (const auto& [name, value] : run(*experiment,
+                                           {{"ray_kind", text(kind)},
+                                            {"light", text("sun")},
+                                            {"mirror_depth", int64_t{4}},
+                                            {"repeats", int64_t{2}}},
+                                           true))
         filled.insert(name);
     EXPECT_EQ(filled, declared) << experiment->name;
   }
@@ -120,7 +125,8 @@ TEST_F(RayKindsTest, TheConditionalFormulaIsTheSumOfItsMeasuredParts) {
 }
 
 TEST_F(RayKindsTest, BreakEvenSaysWhatTheIntervalSays) {
-  const Row row = run(ssrm_breakeven_experiment(), {{"tracer_mode", text("single")}, {"repeats", int64_t{5}}}, true);
+  const Row row =
+      run(ssrm_breakeven_experiment(), {{"tracer_mode", text("single")}, {"repeats", int64_t{5}}}, true);
   EXPECT_EQ(row.at("hw_mode"), Value(text("single")));
   for (const char* name : {"sequential", "partitioned", "conditional", "measured"}) {
     const std::string speedup = std::string("speedup_") + name;
@@ -134,7 +140,8 @@ TEST_F(RayKindsTest, BreakEvenSaysWhatTheIntervalSays) {
 TEST_F(RayKindsTest, RunAtOddSizesAndOnViewsOfNothing) {
   for (const char* size : {"1x1", "64x1"})
     for (const char* kind : {"mirror", "rough", "ambient", "shadow"})
-      EXPECT_NO_THROW(rays({{"resolution", text(size)}, {"ray_kind", text(kind)}, {"repeats", int64_t{1}}}, true));
+      EXPECT_NO_THROW(
+          rays({{"resolution", text(size)}, {"ray_kind", text(kind)}, {"repeats", int64_t{1}}}, true));
   const Row row = rays({{"near", 1000.0}, {"far", 2000.0}, {"mirror_depth", int64_t{2}}}, true);
   EXPECT_EQ(integer(row, "rays"), 0);
   EXPECT_TRUE(std::holds_alternative<std::monostate>(row.at("alpha")));

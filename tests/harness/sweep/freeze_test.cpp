@@ -117,7 +117,8 @@ TEST_F(FreezeTest, PutsSeededCamerasInThePlaceOfTheirPattern) {
 }
 
 TEST_F(FreezeTest, SaysWhatASeededCameraMustLookLike) {
-  const std::string head = R"({"experiment": "staged", "parameters": {"scene": "hall", "count": 1, "camera": )";
+  const std::string head =
+      R"({"experiment": "staged", "parameters": {"scene": "hall", "count": 1, "camera": )";
   for (const char* wrong : {"\"seeded/x\"", "\"seeded*0\"", "\"seeded*9999\"", "\"seeded/-1\""}) {
     const std::string message = problem(head + wrong + "}}");
     EXPECT_NE(message.find(wrong), std::string::npos) << message;
