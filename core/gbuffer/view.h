@@ -9,6 +9,8 @@
 #include "core/base/vec.h"
 #include "core/scene/camera.h"
 
+#include <cstdint>
+
 namespace hybray {
 
 enum class DepthConvention {
@@ -37,6 +39,9 @@ class View {
   double near() const { return near_; }
   double far() const { return far_; }
   DepthConvention convention() const { return convention_; }
+  uint32_t pixel_index(int x, int y) const {  // row-major
+    return static_cast<uint32_t>(y) * static_cast<uint32_t>(width_) + static_cast<uint32_t>(x);
+  }
   const dvec3& eye() const { return eye_; }
   const dvec3& right() const { return right_; }      // unit, toward +x on the screen
   const dvec3& down() const { return down_; }        // unit, toward +y on the screen

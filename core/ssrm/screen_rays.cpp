@@ -29,7 +29,8 @@ double exit_distance(const Bounds3& box, const dvec3& o, const dvec3& d) {
 
 }  // namespace
 
-ScreenRays project_rays(const RayStream& rays, const View& view, const Bounds3& scene_bounds) {
+ScreenRays project_rays(const RayStream& rays, const View& view, const Bounds3& scene_bounds,
+                        std::span<const float> lengths) {
   const Bounds3 box = scene_bounds.enlarged(kBoundsMargin);
   const double sign = view.depth_sign();
   ScreenRays out;
@@ -55,6 +56,8 @@ ScreenRays project_rays(const RayStream& rays, const View& view, const Bounds3& 
       Verdict event = Verdict::miss;
       if (w1 < 0.0 && (view.near() - w0) / w1 < t) t = (view.near() - w0) / w1, event = Verdict::viewer;
       if (w1 > 0.0 && (view.far() - w0) / w1 < t) t = (view.far() - w0) / w1, event = Verdict::offscreen;
+      if (!lengths.empty() && static_cast<double>(lengths[i]) < t)
+        t = static_cast<double>(lengths[i]), event = Verdict::miss;
       out.l_end[i] = static_cast<float>(l_of(t));
       out.end[i] = event;
     }

@@ -9,6 +9,7 @@
 #include "core/gbuffer/view.h"
 #include "core/ssrm/verdict.h"
 
+#include <span>
 #include <vector>
 
 namespace hybray::ssrm {
@@ -51,7 +52,10 @@ struct ScreenRays {
 constexpr float kBoundsMargin = 0.01f;
 
 // Projects world rays (in double, rounded to float once), all threads. Origins must lie in front of the eye.
-ScreenRays project_rays(const RayStream& rays, const View& view, const Bounds3& scene_bounds);
+// `lengths`, metres, end the rays before they leave: as MISS, since nothing was in the way. Empty: they have
+// no end of their own.
+ScreenRays project_rays(const RayStream& rays, const View& view, const Bounds3& scene_bounds,
+                        std::span<const float> lengths = {});
 
 // Distance t, metres, of screen parameter `l` along world ray `i`.
 double distance_of(const RayStream& rays, size_t i, const View& view, double l);

@@ -78,6 +78,16 @@ class Tracer {
   void trace_some(const RayStream& rays, std::span<const uint32_t> which, HitStream& hits,
                   TraceMode mode) const;
 
+  // Whether anything is in the way of each of rays.size() rays, all threads: 1 or 0 into `occluded` (resized
+  // by the caller, same size). Rays start at t = 0 and end at their `lengths`, metres, or, where that is
+  // empty, nowhere.
+  void occlude(const RayStream& rays, std::span<const float> lengths, std::vector<uint8_t>& occluded,
+               TraceMode mode) const;
+
+  // The same for the rays listed in `which`, each answer written to its own place.
+  void occlude_some(const RayStream& rays, std::span<const float> lengths, std::span<const uint32_t> which,
+                    std::vector<uint8_t>& occluded, TraceMode mode) const;
+
   // Nearest hits of `count` rays on the calling thread alone, for callers inside a parallel loop. Directions
   // have unit length, and rays start at t = 0. Allocates nothing.
   void intersect_batch(const RayLanes& rays, size_t count, const HitLanes& hits, TraceMode mode) const;

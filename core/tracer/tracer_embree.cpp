@@ -4,6 +4,7 @@
 #include "core/tracer/cut_out_filter.h"
 #include "core/tracer/embree_filter.h"
 #include "core/tracer/embree_query.h"
+#include "core/tracer/occlusion_query.h"
 #include "core/tracer/tracer.h"
 #include "core/tracer/user_geometry.h"
 
@@ -179,6 +180,23 @@ void Tracer::trace_blocks(const RayStream& rays, std::span<const uint32_t> which
       embree::trace_rays(impl_->rtc, mode, begin, end, embree::Neighbours{all, to});
     else
       embree::trace_rays(impl_->rtc, mode, begin, end, embree::Listed{rays, which, hits});
+  });
+}
+
+void Tracer::occlude(const RayStream& rays, std::span<const float> lengths, std::vector<uint8_t>& occluded,
+                     TraceMode mode) const {
+  HYBRAY_CHECK_EQ(rays.size(), occluded.size());
+  parallel_blocks(rays.size(), kBlock, [&](size_t begin, size_t end) {
+    embree::occlude_rays(impl_->rtc, mode, begin, end, {rays, lengths, nullptr, occluded});
+  });
+}
+
+void Tracer::occlude_some(const RayStream& rays, std::span<const float> lengths,
+                          std::span<const uint32_t> which, std::vector<uint8_t>& occluded,
+                          TraceMode mode) const {
+  HYBRAY_CHECK_EQ(rays.size(), occluded.size());
+  parallel_blocks(which.size(), kBlock, [&](size_t begin, size_t end) {
+    embree::occlude_rays(impl_->rtc, mode, begin, end, {rays, lengths, which.data(), occluded});
   });
 }
 

@@ -18,13 +18,15 @@ bool seen_from_eye(const Tracer& tracer, const View& view, const dvec3& point, u
 
 }  // namespace
 
-RayTruth trace_truth(const Tracer& robust, const RayStream& rays, const View& view) {
+RayTruth trace_truth(const Tracer& robust, const RayStream& rays, const View& view,
+                     std::span<const float> lengths) {
   RayTruth truth;
   truth.hits.resize(rays.size());
   truth.visible.assign(rays.size(), 0);
   parallel_blocks(rays.size(), 1024, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
-      const Hit hit = robust.intersect(rays.origin(i), rays.direction(i));
+      const Hit hit = lengths.empty() ? robust.intersect(rays.origin(i), rays.direction(i))
+                                      : robust.intersect(rays.origin(i), rays.direction(i), 0.0f, lengths[i]);
       truth.hits.t[i] = hit.t;
       truth.hits.primitive[i] = hit.primitive;
       if (!hit.valid()) continue;

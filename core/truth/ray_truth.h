@@ -7,6 +7,7 @@
 #include "core/tracer/tracer.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace hybray::truth {
@@ -24,6 +25,8 @@ struct RayTruth {
 constexpr double kVisibilityTolerance = 1e-4;
 
 // `robust` should have been built with Tracer::Config::robust. All threads.
-RayTruth trace_truth(const Tracer& robust, const RayStream& rays, const View& view);
+// `lengths`, metres, end the rays; empty: they have no end.
+RayTruth trace_truth(const Tracer& robust, const RayStream& rays, const View& view,
+                     std::span<const float> lengths = {});
 
 }  // namespace hybray::truth

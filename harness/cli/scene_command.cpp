@@ -1,6 +1,7 @@
 #include "core/base/error.h"
 #include "core/base/hash.h"
 #include "core/scene/gltf.h"
+#include "core/tracer/seeded_camera.h"
 #include "core/tracer/tracer.h"
 #include "harness/cli/commands.h"
 #include "harness/cli/log.h"
@@ -48,6 +49,12 @@ std::string shape_words(const AnalyticSurface& s) {
   return "";
 }
 
+// Seeded cameras are found by the tracer that the experiments find them with.
+Camera camera_of_scene(const Scene& scene, const std::string& name) {
+  if (!seeded_camera_number(name)) return find_camera(scene, name);
+  return camera_of(Tracer(scene, {.robust = true, .high_quality = false}), name);
+}
+
 }  // namespace
 
 int scene_list_command(const Environment& environment) {
@@ -93,10 +100,13 @@ int scene_render_command(const Environment& environment, const SceneRenderOption
                                                  options.resolution, kLargestSide));
   }
   const Scene scene = load_scene(environment.scene_paths, options.scene);
-  if (scene.cameras.empty()) throw InputError(options.scene, "the scene has no camera");
-  const Camera& camera = options.camera.empty() ? scene.cameras.front() : find_camera(scene, options.camera);
-  const std::string file =
+  if (options.camera.empty() && scene.cameras.empty())
+    throw InputError(options.scene, "the scene has no camera");
+  const Camera camera =
+      options.camera.empty() ? scene.cameras.front() : camera_of_scene(scene, options.camera);
+  std::string file =
       options.file.empty() ? fmt::format("{}-{}.png", options.scene, camera.name) : options.file;
+  if (options.file.empty()) std::replace(file.begin(), file.end(), '/', '-');
   const Tracer tracer(scene, {});
   render_preview(tracer, camera, resolution->width, resolution->height, file);
   log_info(fmt::format("{} from {} -> {}", options.scene, camera.name, file));

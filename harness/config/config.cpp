@@ -192,7 +192,7 @@ std::vector<const Parameter*> varied_parameters(const Config& config) {
     if (std::find(varied.begin(), varied.end(), parameter) == varied.end()) varied.push_back(parameter);
   };
   const auto add_every_camera = [&](const Given& given) {
-    if (stands_for_every_camera(*given.parameter, given.value)) add(given.parameter);
+    if (stands_for_cameras(*given.parameter, given.value)) add(given.parameter);
   };
   for (const GivenSet& point : config.points) {
     for (const Given& given : point) add(given.parameter);

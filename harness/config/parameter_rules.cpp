@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/nearest_name.h"
+#include "core/tracer/seeded_camera.h"
 #include "harness/config/json_value.h"
 #include "harness/experiments/resolution.h"
 
@@ -70,7 +71,11 @@ std::string expectation(const Parameter& p) {
     case ParameterType::scene:
       return "the name of a scene";
     case ParameterType::camera:
-      return "the name of a camera, or \"*\" for each camera of the scene";
+      return fmt::format(
+          "the name of a camera, \"*\" for each camera of the scene, \"seeded/N\" (N from 0 to {}) for the "
+          "N-th of the cameras that a generator places in any scene, or \"seeded*COUNT\" (1 to {}) for the "
+          "first so many of them",
+          kLargestSeededCamera, kMostSeededCameras);
     case ParameterType::resolution: {
       const auto [least, most] = side_range(p);
       return fmt::format("\"WIDTHxHEIGHT\" with each side {} to {}", least, most);
@@ -95,6 +100,8 @@ bool accept(const Parameter& p, Value& value) {
   if (p.type == ParameterType::choice) {
     return std::find(p.choices.begin(), p.choices.end(), *text) != p.choices.end();
   }
+  if (p.type == ParameterType::camera && begins_like_seeded_camera(*text))
+    return seeded_camera_number(*text) || seeded_camera_count(*text);
   return !text->empty();
 }
 
@@ -121,6 +128,20 @@ Value value_from_text(const Parameter& p, const std::string& text, const std::st
 
 bool stands_for_every_camera(const Parameter& p, const Value& value) {
   return p.type == ParameterType::camera && value == Value("*");
+}
+
+bool stands_for_cameras(const Parameter& p, const Value& value) {
+  return stands_for_every_camera(p, value) || expanded(p, value) != std::vector{value};
+}
+
+std::vector<Value> expanded(const Parameter& p, const Value& value) {
+  const auto* text = std::get_if<std::string>(&value);
+  const std::optional<uint32_t> count =
+      p.type == ParameterType::camera && text ? seeded_camera_count(*text) : std::nullopt;
+  if (!count) return {value};
+  std::vector<Value> values;
+  for (uint32_t n = 0; n < *count; ++n) values.push_back(seeded_camera_name(n));
+  return values;
 }
 
 std::string star_problem(const Parameter& p, const Value& value, size_t count) {

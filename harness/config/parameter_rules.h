@@ -28,6 +28,13 @@ Value value_from_text(const Parameter& parameter, const std::string& text, const
 // Whether `value` is the "*" that stands for each camera of a scene.
 bool stands_for_every_camera(const Parameter& parameter, const Value& value);
 
+// Whether `value` stands for several cameras: "*", or "seeded*COUNT".
+bool stands_for_cameras(const Parameter& parameter, const Value& value);
+
+// The values that `value` stands for in any scene: "seeded/0" and so on for "seeded*COUNT", else itself
+// alone.
+std::vector<Value> expanded(const Parameter& parameter, const Value& value);
+
 // What is wrong with `value` as one of `count` values, that is with "*" among several; empty: nothing.
 std::string star_problem(const Parameter& parameter, const Value& value, size_t count);
 

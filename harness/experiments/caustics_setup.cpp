@@ -2,6 +2,7 @@
 #include "core/base/error.h"
 #include "core/caustics/light_source.h"
 #include "core/caustics/medium_at.h"
+#include "core/tracer/seeded_camera.h"
 #include "harness/experiments/caustics.h"
 #include "harness/experiments/resolution.h"
 #include "harness/experiments/workspace.h"
@@ -73,7 +74,7 @@ Setup make_setup(const Point& point, Workspace& workspace) {
   View::Settings settings;
   settings.width = size.width, settings.height = size.height;
   settings.near = point.number("near");
-  const View view(find_camera(scene, camera), settings, scene.bounds);
+  const View view(camera_of(robust, camera), settings, scene.bounds);
   const bool filter = point.text("filter") == "wavelet";
   unsigned bits = kDepth | kDepthDerivatives | kShadingNormal | kPrimitive;
   if (filter && caustic_scene.optics.any_specular)

@@ -4,6 +4,8 @@
 #include "harness/experiments/experiment.h"
 #include "harness/experiments/workspace.h"
 
+#include <algorithm>
+
 namespace hybray {
 
 // pictures/SCENE_CAMERA_WIDTHxHEIGHT_ID<suffix>.png below the run's folder. Makes that folder.
@@ -11,8 +13,10 @@ inline std::filesystem::path picture_file(const Point& point, const Workspace& w
                                           const std::string& suffix = "") {
   const std::filesystem::path folder = workspace.settings().output / "pictures";
   std::filesystem::create_directories(folder);
-  return folder / (point.text("scene") + "_" + point.text("camera") + "_" + point.text("resolution") + "_" +
-                   point.id + suffix + ".png");
+  std::string camera = point.text("camera");
+  std::replace(camera.begin(), camera.end(), '/', '-');  // of a seeded camera
+  return folder / (point.text("scene") + "_" + camera + "_" + point.text("resolution") + "_" + point.id +
+                   suffix + ".png");
 }
 
 }  // namespace hybray

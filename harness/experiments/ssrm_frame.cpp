@@ -1,6 +1,7 @@
 #include "harness/experiments/ssrm_frame.h"
 
 #include "core/base/parallel.h"
+#include "core/tracer/seeded_camera.h"
 #include "harness/experiments/cells.h"
 #include "harness/experiments/columns.h"
 #include "harness/experiments/parameters.h"
@@ -33,7 +34,7 @@ DepthPyramid pyramid_of(const GBuffer& g) {
 SsrmSetup::SsrmSetup(const Point& point, Workspace& workspace, unsigned more_bits)
     : scene(workspace.scene(point.text("scene"))),
       robust(workspace.robust_tracer(point.text("scene"))),
-      view(find_camera(scene, point.text("camera")), view_settings(point), scene.bounds),
+      view(camera_of(robust, point.text("camera")), view_settings(point), scene.bounds),
       bits(kDepth | kShadingNormal | kPrimitive | more_bits),
       difference(point.text("derivatives") == "difference") {
   if (!difference) bits |= kDepthDerivatives;

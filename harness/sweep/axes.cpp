@@ -62,9 +62,27 @@ Axis listed_points(const Config& config, const Given* scene, const GivenSet& bas
 
 Axis swept(const Setting& setting) {
   Axis axis;
-  for (size_t i = 0; i < setting.values.size(); ++i)
-    axis.push_back({{setting.parameter, setting.values[i], setting.places[i]}});
+  for (size_t i = 0; i < setting.values.size(); ++i) {
+    for (const Value& value : expanded(*setting.parameter, setting.values[i]))
+      axis.push_back({{setting.parameter, value, setting.places[i]}});
+  }
   return axis;
+}
+
+// Entries whose camera stands for several seeded ones become one for each of them.
+Axis with_seeded_cameras(const Axis& axis) {
+  Axis result;
+  for (const GivenSet& entry : axis) {
+    std::vector<GivenSet> entries = {entry};
+    for (size_t i = 0; i < entry.size(); ++i) {
+      const std::vector<Value> values = expanded(*entry[i].parameter, entry[i].value);
+      if (values.size() == 1 && values.front() == entry[i].value) continue;
+      entries.assign(values.size(), entry);
+      for (size_t v = 0; v < values.size(); ++v) entries[v][i].value = values[v];
+    }
+    result.insert(result.end(), entries.begin(), entries.end());
+  }
+  return result;
 }
 
 bool is_given(const std::vector<Axis>& axes, const Parameter* parameter) {
@@ -77,15 +95,15 @@ bool is_given(const std::vector<Axis>& axes, const Parameter* parameter) {
 std::vector<Axis> axes_of(const Config& config, const Given* scene) {
   const GivenSet base = base_of(config, scene);
   std::vector<Axis> axes;
-  if (!config.points.empty()) axes.push_back(listed_points(config, scene, base));
+  if (!config.points.empty()) axes.push_back(with_seeded_cameras(listed_points(config, scene, base)));
   for (const Setting& setting : config.sweep) {
     if (!scene || setting.parameter != scene->parameter) axes.push_back(swept(setting));
   }
   GivenSet rest;
   for (const Given& given : base) {
     if (is_given(axes, given.parameter)) continue;
-    if (stands_for_every_camera(*given.parameter, given.value))
-      axes.insert(axes.begin(), {{given}});
+    if (stands_for_cameras(*given.parameter, given.value))
+      axes.insert(axes.begin(), with_seeded_cameras({{given}}));
     else
       rest.push_back(given);
   }

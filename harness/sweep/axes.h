@@ -14,9 +14,9 @@ namespace hybray {
 using Axis = std::vector<GivenSet>;
 
 // The axes of the points of `scene` (nullptr: of an experiment without scenes), slowest first; together they
-// give every parameter. A camera that is "*" for all points of the scene comes first, then the list of
-// points, the sweep in its order, and all the rest as one entry. Each parameter comes from the sweep or the
-// list of points, else from the scene's override, else from what is fixed.
+// give every parameter. A camera that stands for several for all points of the scene comes first, then the
+// list of points, the sweep in its order, and all the rest as one entry. Each parameter comes from the sweep
+// or the list of points, else from the scene's override, else from what is fixed.
 std::vector<Axis> axes_of(const Config& config, const Given* scene);
 
 // Puts an entry for each of `cameras` in the place of an entry whose camera is "*".

@@ -2,6 +2,7 @@
 
 #include "core/base/error.h"
 #include "core/base/hash.h"
+#include "core/tracer/seeded_camera.h"
 #include "harness/config/json_value.h"
 #include "harness/config/parameter_rules.h"
 #include "harness/sweep/axes.h"
@@ -27,9 +28,11 @@ class Filters {
     for (const Assignment& filter : filters) {
       const Parameter* parameter = find_parameter(experiment, filter.key);
       if (!parameter) throw InputError(filter.place, unknown_parameter(experiment, filter.key));
-      const std::vector<Value> values = values_of(filter, *parameter);
       std::vector<Value>& wanted = wanted_[parameter];
-      wanted.insert(wanted.end(), values.begin(), values.end());
+      for (const Value& value : values_of(filter, *parameter)) {
+        const std::vector<Value> values = expanded(*parameter, value);
+        wanted.insert(wanted.end(), values.begin(), values.end());
+      }
     }
   }
 
@@ -155,7 +158,8 @@ class Freezer {
                            fmt::format("\"*\" stands for no camera: the scene \"{}\" has none", scene));
         }
         const std::string& name = text(camera->value);
-        if (star || std::find(facts.cameras.begin(), facts.cameras.end(), name) != facts.cameras.end())
+        if (star || seeded_camera_number(name) ||
+            std::find(facts.cameras.begin(), facts.cameras.end(), name) != facts.cameras.end())
           continue;
         throw InputError(camera->place, fmt::format("the scene \"{}\" has no camera {}{}", scene,
                                                     json_text(name), suggestion(name, facts.cameras)));

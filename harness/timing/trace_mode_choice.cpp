@@ -28,11 +28,17 @@ std::vector<uint32_t> sample_blocks(std::span<const uint32_t> which) {
 
 TraceMode fastest_trace_mode(const Tracer& tracer, const RayStream& rays, std::span<const uint32_t> which,
                              HitStream& scratch, uint64_t seed) {
+  const ListTrace trace = [&](std::span<const uint32_t> list, TraceMode mode) {
+    tracer.trace_some(rays, list, scratch, mode);
+  };
+  return fastest_trace_mode(which, trace, seed);
+}
+
+TraceMode fastest_trace_mode(std::span<const uint32_t> which, const ListTrace& trace, uint64_t seed) {
   if (which.empty()) return TraceMode::single;
   const std::vector<uint32_t> sample = sample_blocks(which);
   std::vector<Variant> variants;
-  for (TraceMode mode : kAllTraceModes)
-    variants.push_back({label(mode), [&, mode] { tracer.trace_some(rays, sample, scratch, mode); }});
+  for (TraceMode mode : kAllTraceModes) variants.push_back({label(mode), [&, mode] { trace(sample, mode); }});
   const InterleavedTimes times = time_interleaved(variants, kRepeats, seed);
   size_t best = 0;
   for (size_t v = 1; v < variants.size(); ++v)

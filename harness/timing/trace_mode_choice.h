@@ -4,6 +4,7 @@
 #include "core/tracer/tracer.h"
 
 #include <cstdint>
+#include <functional>
 #include <span>
 
 namespace hybray {
@@ -13,5 +14,9 @@ namespace hybray {
 // as rays).
 TraceMode fastest_trace_mode(const Tracer& tracer, const RayStream& rays, std::span<const uint32_t> which,
                              HitStream& scratch, uint64_t seed);
+
+// The same for any way of tracing a list of rays: `trace` handles the listed rays in a mode.
+using ListTrace = std::function<void(std::span<const uint32_t>, TraceMode)>;
+TraceMode fastest_trace_mode(std::span<const uint32_t> which, const ListTrace& trace, uint64_t seed);
 
 }  // namespace hybray

@@ -42,7 +42,7 @@ class Result:
 
     def picture(self, row: Row, kind: str = "") -> Path | None:
         """The picture that the program wrote of a point (`kind`: the end of its name, such as off), if it did."""
-        parts = (row["scene"], row["camera"], f"{row['width']}x{row['height']}", row["id"], *([kind] if kind else []))
+        parts = (row["scene"], row["camera"].replace("/", "-"), f"{row['width']}x{row['height']}", row["id"], *([kind] if kind else []))
         path = self.table.path.parent / "pictures" / ("_".join(parts) + ".png")
         return path if path.is_file() else None
 

@@ -37,6 +37,11 @@ class Figures(unittest.TestCase):
                                                                              ("hiz", "none", 0.1, 0.9), ("hiz", "none", 1, 0)])])
         write(self.root, "ssrm_layers", [changed(LAYERS, layers=n, guard_band=b, scene=s, alpha_gain=1 + 0.1 * n + b)
                                          for n in (1, 2, 3) for b in (0, 0.25) for s in ("sphere", "bistro")])
+        write(self.root, "ssrm_breakeven", [
+            changed(SSRM, ray_kind=k, mirror_depth=d, tracer_mode=m, break_even_alpha=b, pays_measured=p)
+            for k, d, b, p in (("mirror", 1, 0.3, "yes"), ("mirror", 2, 0.6, "no"), ("shadow", 1, 3, "no"))
+            for m in ("fastest", "single")])
+        write(self.root, "ssrm_distribution", [changed(SSRM, camera=f"seeded/{n}", alpha=(n + 1) / 10) for n in range(4)])
         write(self.root, "caustics_rays_objects", rays() + [changed(r, scene="wine_glass", at_floor="true") for r in rays()])
         write(self.root, "caustics_depth_objects", [changed(CAUSTICS, mirror_depth=d, total_ms=d + 3) for d in (1, 2, 3, 4)])
         write(self.root, "caustics_lights", lights())
@@ -62,7 +67,8 @@ class Figures(unittest.TestCase):
         self.assertEqual(outputs[0].keys(), outputs[1].keys())
         for name, content in outputs[0].items():
             self.assertEqual(content, outputs[1][name], name)
-        for name in ("ssrm_times", "ssrm_verdicts", "ssrm_alpha", "ssrm_precision_recall", "ssrm_thickness", "ssrm_layers", "caustics_onoff", "caustics_rays_objects",
+        for name in ("ssrm_times", "ssrm_verdicts", "ssrm_alpha", "ssrm_precision_recall", "ssrm_thickness", "ssrm_layers", "ssrm_breakeven",
+                     "ssrm_distribution", "caustics_onoff", "caustics_rays_objects",
                      "caustics_depth_objects", "caustics_lights", "time_error_ssrm_tables", "time_error_caustics_rays_objects"):
             pdf, svg, png = (outputs[0][f"{name}.{kind}"] for kind in ("pdf", "svg", "png"))
             self.assertTrue(pdf.startswith(b"%PDF-") and png.startswith(b"\x89PNG"), name)
@@ -71,6 +77,14 @@ class Figures(unittest.TestCase):
             self.assertNotIn(b"dc:date", svg)
             xml.dom.minidom.parseString(svg)
         self.assertIn(b"A CPU", self.text_of(outputs[0]["caustics_lights.svg"]))
+
+    def test_tells_how_seeded_cameras_are_distributed(self):
+        write(self.root, "ssrm_distribution", [changed(SSRM, camera=f"seeded/{n}", alpha=a) for n, a in enumerate((0.1, 0.2, 0.3, 0.6))])
+        done = run("figures.py", self.root, "--only", "ssrm_distribution")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        line = next(x for x in (self.root / "figures" / "ssrm_distribution.txt").read_text().splitlines() if "| alpha |" in x)
+        # Mean 0.3, standard deviation sqrt(0.14 / 3) = 0.21602, Student's t with 3 degrees of freedom 3.18245.
+        self.assertEqual(line, "| sphere | alpha | 4 | 0.3000 | -0.0437 to 0.6437 | 0.1000 | 0.1750, 0.2500, 0.3750 | 0.6000 |")
 
     @staticmethod
     def text_of(svg: bytes) -> bytes:

@@ -102,6 +102,30 @@ TEST_F(FreezeTest, PutsEveryCameraOfItsSceneInThePlaceOfAStar) {
               "count=2 camera=window"}));
 }
 
+TEST_F(FreezeTest, PutsSeededCamerasInThePlaceOfTheirPattern) {
+  const Labels four = {"camera=seeded/0", "camera=seeded/1", "camera=seeded/2", "camera=seeded/3"};
+  const std::string head = R"({"experiment": "staged", "parameters": {"scene": "hall", "count": 1)";
+  EXPECT_EQ(labels(head + R"(, "camera": "seeded*4"}})"), four);
+  EXPECT_EQ(labels(head + R"(}, "sweep": {"camera": ["seeded*4"]}})"), four);
+  EXPECT_EQ(labels(head + R"(}, "points": [{"camera": "seeded*4"}]})"), four);
+  EXPECT_EQ(labels(head + R"(}, "sweep": {"camera": ["door", "seeded/9"]}})"),
+            (Labels{"camera=door", "camera=seeded/9"}));
+  EXPECT_EQ(labels(head + R"(, "camera": "seeded*64"}})", {{"camera=seeded/3", "camera=seeded*2"}}),
+            (Labels{"camera=seeded/0", "camera=seeded/1", "camera=seeded/3"}));
+  facts_["hall"].cameras = {};
+  EXPECT_EQ(frozen(head + R"(, "camera": "seeded*64"}})").points.size(), 64u);
+}
+
+TEST_F(FreezeTest, SaysWhatASeededCameraMustLookLike) {
+  const std::string head =
+      R"({"experiment": "staged", "parameters": {"scene": "hall", "count": 1, "camera": )";
+  for (const char* wrong : {"\"seeded/x\"", "\"seeded*0\"", "\"seeded*9999\"", "\"seeded/-1\""}) {
+    const std::string message = problem(head + wrong + "}}");
+    EXPECT_NE(message.find(wrong), std::string::npos) << message;
+    EXPECT_NE(message.find("\"seeded/N\" (N from 0 to 999999)"), std::string::npos) << message;
+  }
+}
+
 TEST_F(FreezeTest, GivesEveryPointEveryParameterAndAnIdOfItsOwn) {
   const FrozenSweep sweep =
       frozen(R"({"experiment": "staged", "parameters": {"count": 1}, "sweep": {"scene": ["hall", "yard"],
