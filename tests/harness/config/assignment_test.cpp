@@ -55,10 +55,13 @@ TEST(Assignment, RefusesWhatTheParameterDoesNotAccept) {
   EXPECT_EQ(problem(R"({"from": 1, "to": 9})"), "--set: a range needs \"count\" or \"step\"");
   EXPECT_EQ(problem(R"({"from": 1, "to": 10, "count": 4})"),
             "--set: \"to\": found 10; expected an integer from 1 to 9");
-  EXPECT_EQ(
-      test::message_of<InputError>([&] { values(kCamera, "{}"); }),
-      "--set: found \"{}\"; expected the name of a camera, or \"*\" for each camera of the scene, or a list "
-      "[...] of such");
+  EXPECT_EQ(test::message_of<InputError>([&] { values(kCamera, "{}"); }),
+            "--set: found \"{}\"; expected the name of a camera, \"*\" for each camera of the scene, "
+            "\"seeded/N\" (N from "
+            "0 to 999999) for the N-th of the cameras that a generator places in any scene, or "
+            "\"seeded*COUNT\" (1 to "
+            "4096) for the first so many of them, or a list "
+            "[...] of such");
 }
 
 }  // namespace

@@ -53,15 +53,17 @@ TEST_F(RayKindsTest, RoughReflectionsAtRoughnessZeroAreMirrors) {
 }
 
 TEST_F(RayKindsTest, OcclusionVerdictsAreHeldAgainstTracedTruth) {
-  for (const char* scene : {"sphere", "atrium"}) {
-    for (const auto& [kind, camera] : {std::pair{"ambient", "front"}, {"shadow", "front"}}) {
+  for (const auto& [scene, camera] : {std::pair{"sphere", "front"}, {"atrium", "nave"}}) {
+    const Row mirror = rays({{"scene", text(scene)}, {"camera", text(camera)}});
+    for (const char* kind : {"ambient", "shadow"}) {
       const Row row = rays({{"scene", text(scene)},
-                            {"camera", text(std::string(scene) == "atrium" ? "nave" : camera)},
+                            {"camera", text(camera)},
                             {"ray_kind", text(kind)},
                             {"rays_per_pixel", int64_t{2}}});
       EXPECT_GT(number(row, "alpha"), 0.005) << scene << ' ' << kind;
-      // A HIT is a crossing of a plane that a pixel shows: as in `ssrm`, nearly all are real.
-      EXPECT_GT(number(row, "precision"), 0.97) << scene << ' ' << kind;
+      // False hits come of the same planes as those of mirror rays of this view, but here a wrong distance
+      // does not make one. The rays are others, so a point less may be.
+      EXPECT_GT(number(row, "precision"), number(mirror, "precision") - 0.01) << scene << ' ' << kind;
       // What is resolved cannot be more than what is occluded, and false hits.
       EXPECT_LE(number(row, "alpha") * number(row, "precision"), number(row, "truly_hit_fraction") + 1e-12);
       EXPECT_TRUE(std::holds_alternative<std::monostate>(row.at("recall")));
