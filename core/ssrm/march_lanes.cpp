@@ -66,7 +66,8 @@ struct MarchJob {
   const DepthView& view;
   const ScreenRays& rays;
   const std::vector<uint32_t>& pixels;
-  int32_t step_budget;  // 0: none
+  int32_t step_budget;    // 0: none
+  const uint32_t* which;  // rays of the list to march; null: all of them
   alignas(64) FirstTexels first_texels;
 };
 
@@ -270,28 +271,39 @@ HWY_INLINE size_t write_back(const Packet& p, size_t at, size_t out, M here, Mar
   return out + hn::CountTrue(df, p.live);
 }
 
-// Stage 1: every ray of [begin, end) up to the exit of its own pixel.
+// Copies rays [begin, end), or those places of the list, into the wave.
+HWY_INLINE void gather_rays(const MarchJob& job, size_t begin, size_t count, MarchWave& wave) {
+  if (job.which)
+    std::copy_n(job.which + begin, count, wave.ray.data());
+  else
+    for (size_t i = 0; i < count; ++i) wave.ray[i] = static_cast<uint32_t>(begin + i);
+  const auto copy = [&](const std::vector<float>& from, MarchWave::Lanes<float>& to) {
+    if (!job.which)
+      std::copy_n(from.data() + begin, count, to.data());
+    else
+      for (size_t i = 0; i < count; ++i) to[i] = from[wave.ray[i]];
+  };
+  copy(job.rays.ox, wave.ox), copy(job.rays.oy, wave.oy), copy(job.rays.oz, wave.oz);
+  copy(job.rays.dx, wave.ix), copy(job.rays.dy, wave.iy), copy(job.rays.dz, wave.dz);
+  copy(job.rays.l_end, wave.l_end);
+}
+
+// Stage 1: every ray of [begin, end), places of the list if there is one, up to the exit of its own pixel.
 HWY_INLINE void start(const MarchJob& job, size_t begin, size_t end, MarchMemory& memory) {
   const DF df;
   const DI di;
   const size_t lanes = hn::Lanes(df), count = end - begin;
   MarchWave& wave = memory.wave;
   memory.stopped.count = memory.ended.count = 0;
-  const auto copy = [&](const std::vector<float>& from, MarchWave::Lanes<float>& to) {
-    std::copy_n(from.data() + begin, count, to.data());
-  };
-  copy(job.rays.ox, wave.ox), copy(job.rays.oy, wave.oy), copy(job.rays.oz, wave.oz);
-  copy(job.rays.dx, wave.ix), copy(job.rays.dy, wave.iy), copy(job.rays.dz, wave.dz);
-  copy(job.rays.l_end, wave.l_end);
+  gather_rays(job, begin, count, wave);
   const int32_t width = job.view.width();
   const double inverse_width = 1.0 / width;
   for (size_t i = 0; i < count; ++i) {
-    const uint32_t pixel = job.pixels[begin + i];
+    const uint32_t pixel = job.pixels[wave.ray[i]];
     // Exact: a half is further from the next whole row than rounding reaches.
     const auto row = static_cast<int32_t>((static_cast<double>(pixel) + 0.5) * inverse_width);
     wave.py[i] = row;
     wave.px[i] = static_cast<int32_t>(pixel) - row * width;
-    wave.ray[i] = static_cast<uint32_t>(begin + i);
   }
   wave.count = count;
   const VI zero = hn::Zero(di);
@@ -469,26 +481,39 @@ namespace hybray::ssrm {
 
 HWY_EXPORT(march_block);
 
-void march_paper_lanes(const DepthView& view, const ScreenRays& rays, const std::vector<uint32_t>& pixels,
-                       const MarchOptions& options, MarchResults& results) {
+namespace {
+
+void march_listed(const DepthView& view, const ScreenRays& rays, const std::vector<uint32_t>& pixels,
+                  const uint32_t* which, size_t count, const MarchOptions& options, MarchResults& results) {
   HYBRAY_CHECK_EQ(rays.size(), pixels.size());
   HYBRAY_CHECK_EQ(rays.size(), results.size());
   // No ray takes as many samples as that.
   constexpr uint64_t kUnlimited = uint64_t{1} << 30;
-  MarchJob job{view,
-               rays,
-               pixels,
-               options.step_budget < kUnlimited ? static_cast<int32_t>(options.step_budget) : 0,
-               {}};
+  MarchJob job{view,   rays,
+               pixels, options.step_budget < kUnlimited ? static_cast<int32_t>(options.step_budget) : 0,
+               which,  {}};
   HYBRAY_CHECK_LE(view.pyramid.levels(), kMostLevels);
   for (int level = 0; level < view.pyramid.levels(); ++level)
     job.first_texels[static_cast<size_t>(level)] = static_cast<int32_t>(view.pyramid.first_texel(level));
   std::atomic<uint64_t> steps{0};
   tbb::enumerable_thread_specific<std::unique_ptr<MarchMemory>> memories(std::make_unique<MarchMemory>);
-  parallel_blocks(rays.size(), MarchWave::kSize, [&](size_t begin, size_t end) {
+  parallel_blocks(count, MarchWave::kSize, [&](size_t begin, size_t end) {
     steps += HWY_DYNAMIC_DISPATCH(march_block)(job, begin, end, *memories.local(), results);
   });
   results.steps = steps;
+}
+
+}  // namespace
+
+void march_paper_lanes(const DepthView& view, const ScreenRays& rays, const std::vector<uint32_t>& pixels,
+                       const MarchOptions& options, MarchResults& results) {
+  march_listed(view, rays, pixels, nullptr, rays.size(), options, results);
+}
+
+void march_paper_lanes_some(const DepthView& view, const ScreenRays& rays,
+                            const std::vector<uint32_t>& pixels, std::span<const uint32_t> which,
+                            const MarchOptions& options, MarchResults& results) {
+  march_listed(view, rays, pixels, which.data(), which.size(), options, results);
 }
 
 }  // namespace hybray::ssrm

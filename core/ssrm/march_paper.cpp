@@ -59,15 +59,19 @@ Correction march_paper_ray(const DepthView& view, const ScreenRay<float>& ray, u
   return correct(view, promoted(ray), {walk.px, walk.py}, walk.previous(), origin);
 }
 
-void march_paper(const DepthView& view, const ScreenRays& rays, const std::vector<uint32_t>& pixels,
-                 const MarchOptions& options, MarchResults& results) {
+namespace {
+
+// Marches rays ray_at(0) to ray_at(count - 1).
+template <class RayAt>
+void march_scalar(const DepthView& view, const ScreenRays& rays, const std::vector<uint32_t>& pixels,
+                  size_t count, const RayAt& ray_at, const MarchOptions& options, MarchResults& results) {
   HYBRAY_CHECK_EQ(rays.size(), pixels.size());
   HYBRAY_CHECK_EQ(rays.size(), results.size());
-  if (options.code == MarchCode::lanes) return march_paper_lanes(view, rays, pixels, options, results);
   std::atomic<uint64_t> steps{0};
-  parallel_blocks(rays.size(), 1024, [&](size_t begin, size_t end) {
+  parallel_blocks(count, 1024, [&](size_t begin, size_t end) {
     uint64_t mine = 0;
-    for (size_t i = begin; i < end; ++i) {
+    for (size_t j = begin; j < end; ++j) {
+      const size_t i = ray_at(j);
       const Correction c = march_paper_ray(view, rays.get<float>(i), pixels[i], options, mine);
       results.verdict[i] = c.verdict;
       results.pixel[i] = c.pixel;
@@ -75,6 +79,23 @@ void march_paper(const DepthView& view, const ScreenRays& rays, const std::vecto
     steps += mine;
   });
   results.steps = steps;
+}
+
+}  // namespace
+
+void march_paper(const DepthView& view, const ScreenRays& rays, const std::vector<uint32_t>& pixels,
+                 const MarchOptions& options, MarchResults& results) {
+  if (options.code == MarchCode::lanes) return march_paper_lanes(view, rays, pixels, options, results);
+  march_scalar(
+      view, rays, pixels, rays.size(), [](size_t j) { return j; }, options, results);
+}
+
+void march_paper_some(const DepthView& view, const ScreenRays& rays, const std::vector<uint32_t>& pixels,
+                      std::span<const uint32_t> which, const MarchOptions& options, MarchResults& results) {
+  if (options.code == MarchCode::lanes)
+    return march_paper_lanes_some(view, rays, pixels, which, options, results);
+  march_scalar(
+      view, rays, pixels, which.size(), [&](size_t j) { return size_t{which[j]}; }, options, results);
 }
 
 }  // namespace hybray::ssrm

@@ -5,6 +5,8 @@
 #include "core/base/ray_stream.h"
 #include "core/ssrm/correction.h"
 
+#include <span>
+
 namespace hybray::ssrm {
 
 // Depth samples in one iteration, between changes of level: the paper's balance of arithmetic against memory.
@@ -22,6 +24,11 @@ struct MarchOptions {
 // rays.size().
 void march_paper(const DepthView& view, const ScreenRays& rays, const std::vector<uint32_t>& pixels,
                  const MarchOptions& options, MarchResults& results);
+
+// The same for the rays listed in `which` (indices into `rays`, each at most once): each result is written to
+// its ray's own place, other places stay as they were. `results.steps` counts the samples of the listed rays.
+void march_paper_some(const DepthView& view, const ScreenRays& rays, const std::vector<uint32_t>& pixels,
+                      std::span<const uint32_t> which, const MarchOptions& options, MarchResults& results);
 
 // One ray. Adds the depth samples read to `steps`.
 Correction march_paper_ray(const DepthView& view, const ScreenRay<float>& ray, uint32_t pixel,

@@ -90,22 +90,23 @@ Column follows_rays(Column column) {
 void add_view_columns(std::vector<Column>& columns) {
   using namespace column;
   using enum Better;
-  add(columns, {
-      key("scene", "scene"),
-      key("camera", "camera"),
-      key("width", "width of the main view", "px"),
-      key("height", "height of the main view", "px"),
-      key("near_m", "near plane", "m"),
-      {"far_m", "m", ColumnKind::key, none, "far plane in use", Comparison::value, {0.0, 1e-12}},
-      key("depth_convention", "depth convention"),
-      key("derivatives", "origin of the depth derivatives"),
-      counted("triangles", "triangles of the scene"),
-      follows_rays(counted("rays", "reflection rays, one a covered pixel")),
-      follows_rays(counted("geometric_mirror_rays",
-                           "rays mirrored about the geometric normal instead of the shading normal")),
-      follows_rays(counted("paths_skipped", "background pixels, for which no ray was made")),
-      counted("buffers_skipped", "kinds of geometry buffer that this point did not need"),
-  });
+  add(columns,
+      {
+          key("scene", "scene"),
+          key("camera", "camera"),
+          key("width", "width of the main view", "px"),
+          key("height", "height of the main view", "px"),
+          key("near_m", "near plane", "m"),
+          {"far_m", "m", ColumnKind::key, none, "far plane in use", Comparison::value, {0.0, 1e-12}},
+          key("depth_convention", "depth convention"),
+          key("derivatives", "origin of the depth derivatives"),
+          counted("triangles", "triangles of the scene"),
+          follows_rays(counted("rays", "reflection rays, one a covered pixel")),
+          follows_rays(counted("geometric_mirror_rays",
+                               "rays mirrored about the geometric normal instead of the shading normal")),
+          follows_rays(counted("paths_skipped", "background pixels, for which no ray was made")),
+          counted("buffers_skipped", "kinds of geometry buffer that this point did not need"),
+      });
   add_threads(columns);
 }
 
@@ -127,26 +128,28 @@ void add_view_cells(Row& row, const Point& point, const SsrmSetup& setup, const 
 void add_verdict_columns(std::vector<Column>& columns) {
   using column::add;
   using enum Better;
-  add(columns, {
-      share_of_rays("alpha", higher, "HIT / rays"),
-      share_of_rays("miss_fraction", none, "MISS / rays"),
-      share_of_rays("false_miss_fraction", lower, "share of MISS whose ray truly hits something"),
-      share_of_rays("unknown_offscreen_fraction", none,
-                    "rays that left the view volume at the side or the far plane / rays"),
-      share_of_rays("unknown_behind_fraction", none,
-                    "rays already behind the failing pixel's plane where they enter it / rays"),
-      share_of_rays("unknown_viewer_fraction", none, "rays that left through the near plane / rays"),
-      share_of_rays("unknown_correction_fraction", none, "rays that failed the correction otherwise / rays"),
-      share_of_rays("unknown_budget_fraction", none, "rays whose step budget was exhausted / rays"),
-      share_of_rays("precision", higher, "right HITs / HITs"),
-      share_of_rays("precision_loose", higher, "HITs within max(1 % of t*, 1.5 footprints) / HITs"),
-      share_of_rays("recall", higher, "right HITs / rays whose true hit the main view sees"),
-      share_of_rays("alpha_max", none, "rays whose true hit the main view sees / rays"),
-      share_of_rays("false_hit_fraction", lower, "false HITs / HITs; phantom + early + through"),
-      share_of_rays("phantom_fraction", lower, "HITs of rays that truly hit nothing / HITs"),
-      share_of_rays("early_fraction", lower, "HITs claimed before the true hit / HITs"),
-      share_of_rays("through_fraction", lower, "HITs claimed beyond the true hit / HITs"),
-  });
+  add(columns,
+      {
+          share_of_rays("alpha", higher, "HIT / rays"),
+          share_of_rays("miss_fraction", none, "MISS / rays"),
+          share_of_rays("false_miss_fraction", lower, "share of MISS whose ray truly hits something"),
+          share_of_rays("unknown_offscreen_fraction", none,
+                        "rays that left the view volume at the side or the far plane / rays"),
+          share_of_rays("unknown_behind_fraction", none,
+                        "rays already behind the failing pixel's plane where they enter it / rays"),
+          share_of_rays("unknown_viewer_fraction", none, "rays that left through the near plane / rays"),
+          share_of_rays("unknown_correction_fraction", none,
+                        "rays that failed the correction otherwise / rays"),
+          share_of_rays("unknown_budget_fraction", none, "rays whose step budget was exhausted / rays"),
+          share_of_rays("precision", higher, "right HITs / HITs"),
+          share_of_rays("precision_loose", higher, "HITs within max(1 % of t*, 1.5 footprints) / HITs"),
+          share_of_rays("recall", higher, "right HITs / rays whose true hit the main view sees"),
+          share_of_rays("alpha_max", none, "rays whose true hit the main view sees / rays"),
+          share_of_rays("false_hit_fraction", lower, "false HITs / HITs; phantom + early + through"),
+          share_of_rays("phantom_fraction", lower, "HITs of rays that truly hit nothing / HITs"),
+          share_of_rays("early_fraction", lower, "HITs claimed before the true hit / HITs"),
+          share_of_rays("through_fraction", lower, "HITs claimed beyond the true hit / HITs"),
+      });
 }
 
 void add_verdict_cells(Row& row, const metrics::VerdictTable& t) {
