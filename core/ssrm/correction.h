@@ -13,6 +13,9 @@ struct DepthView {
   const DepthPyramid& pyramid;
   const Image2D<vec2>& derivatives;  // device depth a pixel, as in GBuffer
   int depth_sign;                    // View::depth_sign()
+  // ConservativeDepth::intercept, beside a pyramid over its `nearest`. Where given, a pixel that fails the
+  // flat test is also tried with the slanted bound.
+  const Image2D<float>* intercept = nullptr;
   int width() const { return pyramid.width(); }
   int height() const { return pyramid.height(); }
 };

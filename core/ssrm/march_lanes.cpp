@@ -40,12 +40,14 @@ struct StoppedRays {
   using Lanes = MarchWave::Lanes<T>;
   alignas(64) Lanes<uint32_t> ray;
   alignas(64) Lanes<int32_t> px, py, previous_x, previous_y;
+  alignas(64) Lanes<float> l;  // where they entered the pixel; kept only where it is asked for
   size_t count = 0;
 };
 
 struct EndedRays {
   alignas(64) MarchWave::Lanes<uint32_t> ray;
   alignas(64) MarchWave::Lanes<int32_t> how;
+  alignas(64) MarchWave::Lanes<float> l;  // where they ended; kept only where it is asked for
   size_t count = 0;
 };
 
@@ -68,6 +70,7 @@ struct MarchJob {
   const std::vector<uint32_t>& pixels;
   int32_t step_budget;    // 0: none
   const uint32_t* which;  // rays of the list to march; null: all of them
+  bool correct, keeps_l;
   alignas(64) FirstTexels first_texels;
 };
 
@@ -176,8 +179,32 @@ HWY_INLINE VI first_texel(const FirstTexels& table, VI level) {
   return hn::GatherIndex(di, table.data(), level);
 }
 
+// in_front_of_slant() of march_paper.cpp, in the lanes `where`.
+HWY_INLINE M in_front_of_slant(const Packet& p, const DepthView& view, VF leave, M where) {
+  const DF df;
+  const DI di;
+  const VI pixel = hn::IfThenElseZero(as_int(where),
+                                      hn::Add(hn::Mul(p.py, hn::Set(di, view.width())), p.px));
+  const VI pair = hn::Add(pixel, pixel);
+  const float* slopes = &view.derivatives.data()->x;
+  const VF one = hn::Set(df, 1.0f), half = hn::Set(df, 0.5f), zero = hn::Zero(df);
+  const VF sign = hn::Set(df, static_cast<float>(view.depth_sign));
+  const VF gx = hn::Mul(sign, hn::GatherIndex(df, slopes, pair));
+  const VF gy = hn::Mul(sign, hn::GatherIndex(df, slopes + 1, pair));
+  const VF intercept = hn::GatherIndex(df, view.intercept->data(), pixel);
+  const VF dx = hn::Div(one, p.x.inverse), dy = hn::Div(one, p.y.inverse);
+  const VF across_x =
+      hn::Mul(gx, hn::Sub(p.x.origin, hn::Add(hn::ConvertTo(df, p.px), half)));
+  const VF across_y =
+      hn::Mul(gy, hn::Sub(p.y.origin, hn::Add(hn::ConvertTo(df, p.py), half)));
+  const VF offset = hn::Sub(hn::Sub(hn::Sub(p.oz, intercept), across_x), across_y);
+  const VF slope = hn::Sub(hn::Sub(p.dz, hn::Mul(gx, dx)), hn::Mul(gy, dy));
+  return hn::And(hn::Le(hn::Add(offset, hn::Mul(p.l, slope)), zero),
+                 hn::Le(hn::Add(offset, hn::Mul(leave, slope)), zero));
+}
+
 // One depth sample of each live lane: march_paper_ray's loop body. Returns how many there were.
-template <bool kBudget>
+template <bool kBudget, bool kSlanted>
 HWY_INLINE size_t step(Packet& p, const MarchJob& job, const float* texels, VI top) {
   const DF df;
   const DI di;
@@ -197,7 +224,12 @@ HWY_INLINE size_t step(Packet& p, const MarchJob& job, const float* texels, VI t
   const VI row = hn::Add(hn::Shr(hn::Set(di, job.view.width() - 1), p.level), one);  // length, in texels
   const VI texel = hn::Add(hn::Add(first_texel(job.first_texels, p.level), cell_x), hn::Mul(cell_y, row));
   const VF depth = hn::GatherIndex(df, texels, hn::IfThenElseZero(as_int(p.live), texel));
-  const M behind = hn::Gt(farthest, hn::Sub(depth, p.oz));
+  M behind = hn::Gt(farthest, hn::Sub(depth, p.oz));
+  if constexpr (kSlanted) {
+    const M asked = hn::And(hn::And(p.live, behind), as_float(hn::Eq(p.level, hn::Zero(di))));
+    if (!hn::AllFalse(df, asked))
+      behind = hn::AndNot(hn::And(asked, in_front_of_slant(p, job.view, leave, asked)), behind);
+  }
   const M ends = hn::Le(p.l_end, exit);
 
   const M intersects = hn::And(p.live, behind), clear = hn::AndNot(behind, p.live);
@@ -233,7 +265,8 @@ HWY_INLINE size_t step(Packet& p, const MarchJob& job, const float* texels, VI t
 
 // Packs the lanes under way to the front of the wave, from `out` on, and the others into the lists of the
 // ended; returns where the next packet's lanes go.
-HWY_INLINE size_t write_back(const Packet& p, size_t at, size_t out, M here, MarchMemory& memory) {
+HWY_INLINE size_t write_back(const Packet& p, size_t at, size_t out, M here, bool keeps_l,
+                             MarchMemory& memory) {
   const DF df;
   const DI di;
   const DU du;
@@ -249,12 +282,17 @@ HWY_INLINE size_t write_back(const Packet& p, size_t at, size_t out, M here, Mar
     hn::CompressStore(p.py, stopped, di, &to.py[to.count]);
     hn::CompressStore(previous_x, stopped, di, &to.previous_x[to.count]);
     hn::CompressStore(previous_y, stopped, di, &to.previous_y[to.count]);
+    if (keeps_l) hn::CompressStore(p.l, as_float(stopped), df, &to.l[to.count]);
     to.count += hn::CountTrue(di, stopped);
   }
   if (!hn::AllFalse(di, ended)) {
     EndedRays& to = memory.ended;
     hn::CompressStore(ray, hn::RebindMask(du, ended), du, &to.ray[to.count]);
     hn::CompressStore(p.how, ended, di, &to.how[to.count]);
+    if (keeps_l) {
+      const M at_end = as_float(hn::Eq(p.how, hn::Set(di, kAtEnd)));
+      hn::CompressStore(hn::IfThenElse(at_end, p.l_end, p.l), as_float(ended), df, &to.l[to.count]);
+    }
     to.count += hn::CountTrue(di, ended);
   }
   const auto keep = [&](VF v, float* to) HWY_ATTR { hn::CompressStore(v, p.live, df, to + out); };
@@ -323,13 +361,13 @@ HWY_INLINE void start(const MarchJob& job, size_t begin, size_t end, MarchMemory
     const M leaves = as_float(hn::Or(p.x.outside(p.px), p.y.outside(p.py)));
     p.how = hn::IfThenElse(as_int(ends), hn::Set(di, kAtEnd), hn::Set(di, kOffscreen));
     p.live = hn::AndNot(hn::Or(ends, leaves), here);
-    out = write_back(p, at, out, here, memory);
+    out = write_back(p, at, out, here, job.keeps_l, memory);
   }
   wave.count = out;
 }
 
 // Stage 2, until no ray is under way.
-template <bool kBudget>
+template <bool kBudget, bool kSlanted>
 HWY_INLINE uint64_t march(const MarchJob& job, MarchMemory& memory) {
   constexpr int kStepsPerWave = 8;
   const DI di;
@@ -345,11 +383,11 @@ HWY_INLINE uint64_t march(const MarchJob& job, MarchMemory& memory) {
       Packet a(wave, at, job.view), b(wave, at + lanes, job.view);
       const M here_a = a.live, here_b = b.live;
       for (int k = 0; k < kStepsPerWave; ++k) {
-        steps += step<kBudget>(a, job, texels, top);
-        steps += step<kBudget>(b, job, texels, top);
+        steps += step<kBudget, kSlanted>(a, job, texels, top);
+        steps += step<kBudget, kSlanted>(b, job, texels, top);
       }
-      out = write_back(a, at, out, here_a, memory);
-      out = write_back(b, at + lanes, out, here_b, memory);
+      out = write_back(a, at, out, here_a, job.keeps_l, memory);
+      out = write_back(b, at + lanes, out, here_b, job.keeps_l, memory);
     }
     wave.count = out;
   }
@@ -459,7 +497,10 @@ HWY_INLINE void correct_stopped(const MarchJob& job, MarchMemory& memory, MarchR
 uint64_t march_block(const MarchJob& job, size_t begin, size_t end, MarchMemory& memory,
                      MarchResults& results) {
   start(job, begin, end, memory);
-  const uint64_t steps = job.step_budget ? march<true>(job, memory) : march<false>(job, memory);
+  const bool slanted = job.view.intercept != nullptr;
+  const uint64_t steps = job.step_budget ? (slanted ? march<true, true>(job, memory) : march<true, false>(job, memory))
+                         : slanted       ? march<false, true>(job, memory)
+                                         : march<false, false>(job, memory);
   for (size_t i = 0; i < memory.ended.count; ++i) {
     const uint32_t ray = memory.ended.ray[i];
     const int32_t how = memory.ended.how[i];
@@ -467,8 +508,19 @@ uint64_t march_block(const MarchJob& job, size_t begin, size_t end, MarchMemory&
                            : how == kOffscreen ? Verdict::offscreen
                                                : Verdict::budget;
     results.pixel[ray] = kNoPixel;
+    if (job.keeps_l) results.proved[ray] = memory.ended.l[i];
   }
-  correct_stopped(job, memory, results);
+  const StoppedRays& stopped = memory.stopped;
+  if (job.keeps_l)
+    for (size_t i = 0; i < stopped.count; ++i) results.proved[stopped.ray[i]] = stopped.l[i];
+  if (job.correct) {
+    correct_stopped(job, memory, results);
+  } else {
+    for (size_t i = 0; i < stopped.count; ++i) {
+      results.verdict[stopped.ray[i]] = Verdict::correction;
+      results.pixel[stopped.ray[i]] = kNoPixel;
+    }
+  }
   return steps;
 }
 

@@ -14,17 +14,35 @@ ScreenRay<double> promoted(const ScreenRay<float>& r) {
   return {r.ox, r.oy, r.oz, r.dx, r.dy, r.dz, r.l_end, r.end};
 }
 
+// Whether the ray is in front of the slanted bound of the walk's pixel, from the walk's L up to `leave`.
+bool in_front_of_slant(const DepthView& view, const ScreenRay<float>& ray, const CellWalk<float>& walk,
+                       float leave) {
+  const vec2 d = view.derivatives(walk.px, walk.py);
+  const float sign = static_cast<float>(view.depth_sign), gx = sign * d.x, gy = sign * d.y;
+  // From the inverses, as the lanes have them.
+  const float dx = 1.0f / walk.x.inverse, dy = 1.0f / walk.y.inverse;
+  const float across_x = gx * (ray.ox - (static_cast<float>(walk.px) + 0.5f));
+  const float across_y = gy * (ray.oy - (static_cast<float>(walk.py) + 0.5f));
+  const float offset = ray.oz - (*view.intercept)(walk.px, walk.py) - across_x - across_y;
+  const float slope = ray.dz - gx * dx - gy * dy;
+  return offset + walk.l * slope <= 0.0f && offset + leave * slope <= 0.0f;
+}
+
 }  // namespace
 
 Correction march_paper_ray(const DepthView& view, const ScreenRay<float>& ray, uint32_t pixel,
-                           const MarchOptions& options, uint64_t& steps) {
+                           const MarchOptions& options, uint64_t& steps, float* proved) {
   // Stage 1: initialisation, up to the exit of the origin pixel.
   const ivec2 origin(static_cast<int>(pixel % static_cast<uint32_t>(view.width())),
                      static_cast<int>(pixel / static_cast<uint32_t>(view.width())));
   CellWalk<float> walk(ray, view.width(), view.height(), origin.x, origin.y);
+  const auto ended = [&](Verdict verdict, float l) -> Correction {
+    if (proved) *proved = l;
+    return {verdict, kNoPixel};
+  };
   const auto first_exit = walk.exit(0);
-  if (ray.l_end <= first_exit.l()) return {ray.end, kNoPixel};
-  if (!walk.advance(first_exit)) return {Verdict::offscreen, kNoPixel};
+  if (ray.l_end <= first_exit.l()) return ended(ray.end, ray.l_end);
+  if (!walk.advance(first_exit)) return ended(Verdict::offscreen, walk.l);
 
   // Stage 2: march. A level up after an iteration without intersection, a level down to redo the cell where
   // there was one.
@@ -33,18 +51,19 @@ Correction march_paper_ray(const DepthView& view, const ScreenRay<float>& ray, u
   for (int level = 0;;) {
     bool intersects = false;
     for (int sample = 0; sample < kSamplesPerIteration; ++sample) {
-      if (steps == last_step) return {Verdict::budget, kNoPixel};
+      if (steps == last_step) return ended(Verdict::budget, walk.l);
       ++steps;
       const auto exit = walk.exit(level);
       const bool ends = ray.l_end <= exit.l();
       const float leave = ends ? ray.l_end : exit.l();
       const float farthest = std::max(ray.rise(walk.l), ray.rise(leave));
-      if (farthest > view.pyramid.at(level, walk.px >> level, walk.py >> level) - ray.oz) {
+      if (farthest > view.pyramid.at(level, walk.px >> level, walk.py >> level) - ray.oz &&
+          !(level == 0 && view.intercept && in_front_of_slant(view, ray, walk, leave))) {
         intersects = true;
         break;
       }
-      if (ends) return {ray.end, kNoPixel};
-      if (!walk.advance(exit)) return {Verdict::offscreen, kNoPixel};
+      if (ends) return ended(ray.end, ray.l_end);
+      if (!walk.advance(exit)) return ended(Verdict::offscreen, walk.l);
     }
     if (!intersects) {
       level = std::min(level + 1, top);
@@ -56,6 +75,8 @@ Correction march_paper_ray(const DepthView& view, const ScreenRay<float>& ray, u
   }
 
   // Stage 3: correction with slanted planes.
+  if (proved) *proved = walk.l;
+  if (!options.correct) return {Verdict::correction, kNoPixel};
   return correct(view, promoted(ray), {walk.px, walk.py}, walk.previous(), origin);
 }
 
@@ -72,7 +93,8 @@ void march_scalar(const DepthView& view, const ScreenRays& rays, const std::vect
     uint64_t mine = 0;
     for (size_t j = begin; j < end; ++j) {
       const size_t i = ray_at(j);
-      const Correction c = march_paper_ray(view, rays.get<float>(i), pixels[i], options, mine);
+      const Correction c = march_paper_ray(view, rays.get<float>(i), pixels[i], options, mine,
+                                           results.proved.empty() ? nullptr : &results.proved[i]);
       results.verdict[i] = c.verdict;
       results.pixel[i] = c.pixel;
     }

@@ -17,6 +17,8 @@ enum class MarchCode : uint8_t { scalar, lanes };
 struct MarchOptions {
   uint64_t step_budget = 0;  // depth samples a ray may read; 0 = as many as it needs (it always ends)
   MarchCode code = MarchCode::scalar;
+  bool correct = true;  // false: a ray that stops is UNKNOWN (correction), for callers that ask only how far
+                        // it is in front of all depth
 };
 
 // The paper's three stages for every ray, all threads. `pixels` holds each ray's own pixel
@@ -30,8 +32,8 @@ void march_paper(const DepthView& view, const ScreenRays& rays, const std::vecto
 void march_paper_some(const DepthView& view, const ScreenRays& rays, const std::vector<uint32_t>& pixels,
                       std::span<const uint32_t> which, const MarchOptions& options, MarchResults& results);
 
-// One ray. Adds the depth samples read to `steps`.
+// One ray. Adds the depth samples read to `steps`; `proved`, if given, receives MarchResults::proved.
 Correction march_paper_ray(const DepthView& view, const ScreenRay<float>& ray, uint32_t pixel,
-                           const MarchOptions& options, uint64_t& steps);
+                           const MarchOptions& options, uint64_t& steps, float* proved = nullptr);
 
 }  // namespace hybray::ssrm

@@ -61,9 +61,10 @@ class Tracer {
   void trace(const RayStream& rays, HitStream& hits, TraceMode mode) const;
 
   // The same for the rays listed in `which` (indices into `rays`), each result written to its own place in
-  // `hits`.
-  void trace_some(const RayStream& rays, std::span<const uint32_t> which, HitStream& hits,
-                  TraceMode mode) const;
+  // `hits`. `t_near`, if given, holds the distance from which on each ray of the stream looks for hits,
+  // metres, >= 0.
+  void trace_some(const RayStream& rays, std::span<const uint32_t> which, HitStream& hits, TraceMode mode,
+                  std::span<const float> t_near = {}) const;
 
   // Nearest hits of `count` rays on the calling thread alone, for callers inside a parallel loop. Directions
   // have unit length, and rays start at t = 0. Allocates nothing.
@@ -75,8 +76,6 @@ class Tracer {
                           Hit* hits) const;
 
  private:
-  void trace_blocks(const RayStream& rays, std::span<const uint32_t> which, size_t count, HitStream& hits,
-                    TraceMode mode) const;
 
   struct Impl;
   std::unique_ptr<Impl> impl_;

@@ -1,11 +1,12 @@
 // Every experiment of this build, in one list.
 #include "harness/experiments/caustics.h"
 #include "harness/experiments/ssrm.h"
+#include "harness/experiments/ssrm_speed.h"
 
 namespace hybray {
 
 std::span<const Experiment> experiments() {
-  static const std::vector<Experiment> all = {ssrm_experiment(), caustics_experiment()};
+  static const std::vector<Experiment> all = {ssrm_experiment(), ssrm_speed_experiment(), caustics_experiment()};
   return all;
 }
 

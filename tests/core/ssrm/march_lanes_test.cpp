@@ -1,4 +1,5 @@
-// The march in lanes against the scalar one: verdict, pixel and number of samples of every ray.
+// The march in lanes against the scalar one: verdict, pixel, proved distance and number of samples of every
+// ray.
 #include "core/ssrm/march_lanes.h"
 
 #include "core/base/lanes.h"
@@ -16,7 +17,8 @@ void expect_same(const MarchResults& lanes, const MarchResults& scalar, const st
   EXPECT_EQ(lanes.steps, scalar.steps) << what;
   size_t different = 0;
   for (size_t i = 0; i < scalar.size(); ++i)
-    different += lanes.verdict[i] != scalar.verdict[i] || lanes.pixel[i] != scalar.pixel[i];
+    different += lanes.verdict[i] != scalar.verdict[i] || lanes.pixel[i] != scalar.pixel[i] ||
+                 (!scalar.proved.empty() && lanes.proved[i] != scalar.proved[i]);
   EXPECT_EQ(different, 0u) << what << ", of " << scalar.size();
 }
 
@@ -32,11 +34,14 @@ TEST(MarchLanes, EndAsTheScalarMarchDoesOnEveryInstructionSet) {
       const test::MainView v(tracer, view);
       rays += v.rays.size();
       for (const uint64_t budget : {0, 1, 2, 7, 40}) {
-        const MarchResults scalar = v.march({.step_budget = budget});
+        MarchResults scalar = v.march({.step_budget = budget});
+        scalar.ask_proved();
+        march_paper(v.depth(), v.screen_rays, v.rays.pixel, {.step_budget = budget}, scalar);
         for (const std::string& target : lanes_targets()) {
           use_lanes_target(target);
           MarchResults lanes;
           lanes.resize(v.rays.size());
+          lanes.ask_proved();
           march_paper_lanes(v.depth(), v.screen_rays, v.rays.pixel, {.step_budget = budget}, lanes);
           expect_same(lanes, scalar, target + " " + std::to_string(width) + " " + std::to_string(budget));
         }
