@@ -543,7 +543,8 @@ void march_listed(const DepthView& view, const ScreenRays& rays, const std::vect
   constexpr uint64_t kUnlimited = uint64_t{1} << 30;
   MarchJob job{view,   rays,
                pixels, options.step_budget < kUnlimited ? static_cast<int32_t>(options.step_budget) : 0,
-               which,  {}};
+               which,  options.correct,
+               !results.proved.empty(), {}};
   HYBRAY_CHECK_LE(view.pyramid.levels(), kMostLevels);
   for (int level = 0; level < view.pyramid.levels(); ++level)
     job.first_texels[static_cast<size_t>(level)] = static_cast<int32_t>(view.pyramid.first_texel(level));
