@@ -6,7 +6,8 @@ from collections.abc import Iterable
 from csv_table import Row
 
 # Parameters of the experiments, as columns. Columns that a table does not have are passed over.
-KEYS = ("scene", "camera", "width", "height", "near_m", "depth_convention", "derivatives", "marcher", "march_code", "predictor", "march_cost", "march_cost_single", "path_step_m", "certified_misses", "step_budget",
+KEYS = ("scene", "camera", "width", "height", "near_m", "depth_convention", "derivatives", "marcher", "march_code", "predictor",
+        "march_cost", "march_cost_single", "path_step_m", "certified_misses", "step_budget",
         "footprint_factor", "caustics", "map_resolution", "rays_per_texel", "mirror_depth", "lights_visible", "lights_invisible",
         "emission", "first_surface", "visibility", "mixed", "gather_radius", "camera_paths", "roulette_threshold", "filter",
         "threads")

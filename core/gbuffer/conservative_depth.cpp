@@ -36,7 +36,7 @@ void lower(float& place, float z) {
 struct OwnPlane {
   uint32_t primitive = kNoPrimitive;
   dvec3 point{0.0}, normal{0.0};
-  double half_size = 0.0;          // half of its longest extent along an axis
+  double half_size = 0.0;        // half of its longest extent along an axis
   double triangle_height = 0.0;  // of the highest vertex of the triangle at hand over it
 };
 
@@ -77,7 +77,8 @@ class Rasteriser {
     }
     if (x0 > x1) return;  // behind the eye
     const double rim = this->rim(nearest);
-    if (nearest <= view_.near()) x0 = y0 = 0.0, x1 = view_.width(), y1 = view_.height(), nearest = view_.near();
+    if (nearest <= view_.near())
+      x0 = y0 = 0.0, x1 = view_.width(), y1 = view_.height(), nearest = view_.near();
     const double z = padded(a_ - b_ / nearest);
     for (int y = first(y0, rim); y <= last(y1, rim, view_.height()); ++y)
       for (int x = first(x0, rim); x <= last(x1, rim, view_.width()); ++x) {
@@ -89,7 +90,8 @@ class Rasteriser {
 
  private:
   double rim(double nearest_w) const {
-    return pixel_rim(view_.width(), view_.height()) + view_.focal() * pad_ / std::max(nearest_w, view_.near());
+    return pixel_rim(view_.width(), view_.height()) +
+           view_.focal() * pad_ / std::max(nearest_w, view_.near());
   }
   static int first(double low, double rim) {
     return static_cast<int>(std::max(0.0, std::ceil(low - 1.0 - rim)));
@@ -210,7 +212,8 @@ class Rasteriser {
     }
     const double z = padded(nearest);
     put(x, y, z, intercept - (nearest - z), rim);
-    if (!origin_stays_clear(part, x, y)) std::atomic_ref<uint8_t>(out_.origin_clear(x, y)).store(0, std::memory_order_relaxed);
+    if (!origin_stays_clear(part, x, y))
+      std::atomic_ref<uint8_t>(out_.origin_clear(x, y)).store(0, std::memory_order_relaxed);
   }
 
   void put(int x, int y, double nearest, double intercept, double rim) {

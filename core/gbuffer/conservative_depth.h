@@ -26,9 +26,7 @@ struct ConservativeDepth {
   Image2D<uint8_t> origin_clear;
   uint64_t pixels_touched = 0;  // summed over the triangles
 
-  size_t memory_bytes() const {
-    return nearest.size() * (2 * sizeof(float) + sizeof(uint8_t));
-  }
+  size_t memory_bytes() const { return nearest.size() * (2 * sizeof(float) + sizeof(uint8_t)); }
 };
 
 // What is subtracted from every depth of a pixel, device depth: eight times the rounding of the depth of a

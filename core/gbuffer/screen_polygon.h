@@ -1,5 +1,5 @@
-// Convex polygons on the screen, with march depth at their corners, cut by axis-parallel lines (Sutherland and
-// Hodgman 1974). In double.
+// Convex polygons on the screen, with march depth at their corners, cut by axis-parallel lines (Sutherland
+// and Hodgman 1974). In double.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ struct ScreenPolygon {
 
 // The part of `in` where axis >= line (sign +1) or <= line (sign -1). Corners made by the cut lie on the line
 // exactly; a corner on the line belongs to both sides.
-template <double ScreenPolygon::Corner::* kAxis>
+template <double ScreenPolygon::Corner::*kAxis>
 void cut(const ScreenPolygon& in, double line, double sign, ScreenPolygon& out) {
   out.count = 0;
   for (size_t i = 0; i < in.count; ++i) {

@@ -183,8 +183,7 @@ HWY_INLINE VI first_texel(const FirstTexels& table, VI level) {
 HWY_INLINE M in_front_of_slant(const Packet& p, const DepthView& view, VF leave, M where) {
   const DF df;
   const DI di;
-  const VI pixel = hn::IfThenElseZero(as_int(where),
-                                      hn::Add(hn::Mul(p.py, hn::Set(di, view.width())), p.px));
+  const VI pixel = hn::IfThenElseZero(as_int(where), hn::Add(hn::Mul(p.py, hn::Set(di, view.width())), p.px));
   const VI pair = hn::Add(pixel, pixel);
   const float* slopes = &view.derivatives.data()->x;
   const VF one = hn::Set(df, 1.0f), half = hn::Set(df, 0.5f), zero = hn::Zero(df);
@@ -193,10 +192,8 @@ HWY_INLINE M in_front_of_slant(const Packet& p, const DepthView& view, VF leave,
   const VF gy = hn::Mul(sign, hn::GatherIndex(df, slopes + 1, pair));
   const VF intercept = hn::GatherIndex(df, view.intercept->data(), pixel);
   const VF dx = hn::Div(one, p.x.inverse), dy = hn::Div(one, p.y.inverse);
-  const VF across_x =
-      hn::Mul(gx, hn::Sub(p.x.origin, hn::Add(hn::ConvertTo(df, p.px), half)));
-  const VF across_y =
-      hn::Mul(gy, hn::Sub(p.y.origin, hn::Add(hn::ConvertTo(df, p.py), half)));
+  const VF across_x = hn::Mul(gx, hn::Sub(p.x.origin, hn::Add(hn::ConvertTo(df, p.px), half)));
+  const VF across_y = hn::Mul(gy, hn::Sub(p.y.origin, hn::Add(hn::ConvertTo(df, p.py), half)));
   const VF offset = hn::Sub(hn::Sub(hn::Sub(p.oz, intercept), across_x), across_y);
   const VF slope = hn::Sub(hn::Sub(p.dz, hn::Mul(gx, dx)), hn::Mul(gy, dy));
   return hn::And(hn::Le(hn::Add(offset, hn::Mul(p.l, slope)), zero),
@@ -498,9 +495,10 @@ uint64_t march_block(const MarchJob& job, size_t begin, size_t end, MarchMemory&
                      MarchResults& results) {
   start(job, begin, end, memory);
   const bool slanted = job.view.intercept != nullptr;
-  const uint64_t steps = job.step_budget ? (slanted ? march<true, true>(job, memory) : march<true, false>(job, memory))
-                         : slanted       ? march<false, true>(job, memory)
-                                         : march<false, false>(job, memory);
+  const uint64_t steps = job.step_budget
+                             ? (slanted ? march<true, true>(job, memory) : march<true, false>(job, memory))
+                         : slanted ? march<false, true>(job, memory)
+                                   : march<false, false>(job, memory);
   for (size_t i = 0; i < memory.ended.count; ++i) {
     const uint32_t ray = memory.ended.ray[i];
     const int32_t how = memory.ended.how[i];
@@ -541,10 +539,14 @@ void march_listed(const DepthView& view, const ScreenRays& rays, const std::vect
   HYBRAY_CHECK_EQ(rays.size(), results.size());
   // No ray takes as many samples as that.
   constexpr uint64_t kUnlimited = uint64_t{1} << 30;
-  MarchJob job{view,   rays,
-               pixels, options.step_budget < kUnlimited ? static_cast<int32_t>(options.step_budget) : 0,
-               which,  options.correct,
-               !results.proved.empty(), {}};
+  MarchJob job{view,
+               rays,
+               pixels,
+               options.step_budget < kUnlimited ? static_cast<int32_t>(options.step_budget) : 0,
+               which,
+               options.correct,
+               !results.proved.empty(),
+               {}};
   HYBRAY_CHECK_LE(view.pyramid.levels(), kMostLevels);
   for (int level = 0; level < view.pyramid.levels(); ++level)
     job.first_texels[static_cast<size_t>(level)] = static_cast<int32_t>(view.pyramid.first_texel(level));

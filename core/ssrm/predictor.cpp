@@ -28,7 +28,10 @@ size_t class_of(const ScreenRays& rays, size_t i, int width, int height) {
   const float share = crossed / static_cast<float>(std::max(width, height));
   const size_t length = share < 0.02f ? 0 : share < 0.06f ? 1 : share < 0.2f ? 2 : 3;
   // March depth at the end of that way relative to that of the origin: 1/w falls or grows.
-  const size_t depth = rays.end[i] == Verdict::viewer ? 0 : rays.dz[i] < 0.0f ? 1 : rays.end[i] == Verdict::miss ? 2 : 3;
+  const size_t depth = rays.end[i] == Verdict::viewer ? 0
+                       : rays.dz[i] < 0.0f            ? 1
+                       : rays.end[i] == Verdict::miss ? 2
+                                                      : 3;
   return 4 * depth + length;
 }
 
@@ -53,7 +56,8 @@ struct Around {
 };
 Around samples_around(const Prediction& p, int x, int y, int across, int down) {
   // In blocks, from the place of a block's sample.
-  const float fx = (static_cast<float>(x) - 1.0f) / kSampleBlock, fy = (static_cast<float>(y) - 1.0f) / kSampleBlock;
+  const float fx = (static_cast<float>(x) - 1.0f) / kSampleBlock,
+              fy = (static_cast<float>(y) - 1.0f) / kSampleBlock;
   const int bx = static_cast<int>(std::floor(fx)), by = static_cast<int>(std::floor(fy));
   const float ax = fx - static_cast<float>(bx), ay = fy - static_cast<float>(by);
   Around a;
@@ -61,7 +65,8 @@ Around samples_around(const Prediction& p, int x, int y, int across, int down) {
     for (int i = 0; i < 2; ++i) {
       const int cx = bx + i, cy = by + j;
       if (cx < 0 || cy < 0 || cx >= across || cy >= down) continue;
-      const uint8_t state = p.blocks[static_cast<size_t>(cy) * static_cast<size_t>(across) + static_cast<size_t>(cx)];
+      const uint8_t state =
+          p.blocks[static_cast<size_t>(cy) * static_cast<size_t>(across) + static_cast<size_t>(cx)];
       if (state == kNoSample) continue;
       const float w = (i ? ax : 1.0f - ax) * (j ? ay : 1.0f - ay);
       a.weight += w;
@@ -76,7 +81,8 @@ TileHistory tile_history(const MarchResults& results, const std::vector<uint32_t
                          int height) {
   const auto tiles = [](int n) { return (n + kHistoryTile - 1) / kHistoryTile; };
   TileHistory h{tiles(width), {}};
-  std::vector<uint32_t> all(static_cast<size_t>(tiles(width)) * static_cast<size_t>(tiles(height))), hits(all.size());
+  std::vector<uint32_t> all(static_cast<size_t>(tiles(width)) * static_cast<size_t>(tiles(height))),
+      hits(all.size());
   for (size_t i = 0; i < pixels.size(); ++i) {
     const uint32_t x = pixels[i] % static_cast<uint32_t>(width), y = pixels[i] / static_cast<uint32_t>(width);
     const size_t tile = (y / kHistoryTile) * static_cast<size_t>(h.width) + x / kHistoryTile;
@@ -91,7 +97,8 @@ TileHistory tile_history(const MarchResults& results, const std::vector<uint32_t
 
 void choose_sample(const std::vector<uint32_t>& pixels, int width, int height, Prediction& p) {
   p.sample.clear();
-  p.blocks.assign(static_cast<size_t>(blocks_across(width)) * static_cast<size_t>(blocks_across(height)), kNoSample);
+  p.blocks.assign(static_cast<size_t>(blocks_across(width)) * static_cast<size_t>(blocks_across(height)),
+                  kNoSample);
   for (uint32_t i = 0; i < pixels.size(); ++i) {
     const uint32_t x = pixels[i] % static_cast<uint32_t>(width), y = pixels[i] / static_cast<uint32_t>(width);
     if (x % kSampleBlock == 1 && y % kSampleBlock == 1) p.sample.push_back(i);
@@ -101,14 +108,16 @@ void choose_sample(const std::vector<uint32_t>& pixels, int width, int height, P
 void predict(const DepthView& view, const ScreenRays& rays, const std::vector<uint32_t>& pixels,
              const PredictorOptions& options, const TileHistory& history, MarchResults& results,
              Prediction& p) {
-  const int width = view.width(), height = view.height(), across = blocks_across(width), down = blocks_across(height);
+  const int width = view.width(), height = view.height(), across = blocks_across(width),
+            down = blocks_across(height);
   const auto w32 = static_cast<uint32_t>(width);
   for (const uint32_t i : p.sample) {
     const uint32_t x = pixels[i] % w32 / kSampleBlock, y = pixels[i] / w32 / kSampleBlock;
     p.blocks[y * static_cast<size_t>(across) + x] = results.verdict[i] == Verdict::hit ? kHit : kNoHit;
   }
   const Chances by_class = chances_by_class(rays, results, p, width, height);
-  const auto prior_weight = static_cast<float>(options.prior_weight), least = static_cast<float>(options.march_cost);
+  const auto prior_weight = static_cast<float>(options.prior_weight),
+             least = static_cast<float>(options.march_cost);
   const auto worthwhile = [&](uint32_t i, int x, int y) {
     const Around a = samples_around(p, x, y, across, down);
     float weight = a.weight, hits = a.hits;
@@ -117,8 +126,9 @@ void predict(const DepthView& view, const ScreenRays& rays, const std::vector<ui
       hits += prior_weight * by_class[class_of(rays, i, width, height)];
     }
     if (!history.chance.empty()) {
-      const float chance = history.chance[static_cast<size_t>(y / kHistoryTile) * static_cast<size_t>(history.width) +
-                                          static_cast<size_t>(x / kHistoryTile)];
+      const float chance =
+          history.chance[static_cast<size_t>(y / kHistoryTile) * static_cast<size_t>(history.width) +
+                         static_cast<size_t>(x / kHistoryTile)];
       if (chance >= 0.0f) weight += prior_weight, hits += prior_weight * chance;
     }
     return hits >= least * weight;
@@ -142,7 +152,8 @@ void predict(const DepthView& view, const ScreenRays& rays, const std::vector<ui
     }
   });
   p.worthwhile.clear();
-  for (const std::vector<uint32_t>& list : lists) p.worthwhile.insert(p.worthwhile.end(), list.begin(), list.end());
+  for (const std::vector<uint32_t>& list : lists)
+    p.worthwhile.insert(p.worthwhile.end(), list.begin(), list.end());
 }
 
 void march_predicted(const DepthView& view, const ScreenRays& rays, const std::vector<uint32_t>& pixels,

@@ -14,7 +14,7 @@
 
 namespace hybray::ssrm {
 
-inline constexpr int kSampleBlock = 4;    // pixels along a side, one sampled ray in each
+inline constexpr int kSampleBlock = 4;   // pixels along a side, one sampled ray in each
 inline constexpr int kHistoryTile = 16;  // pixels along a side
 
 struct PredictorOptions {
@@ -33,9 +33,9 @@ TileHistory tile_history(const MarchResults& results, const std::vector<uint32_t
 
 // Lists that a prediction fills, kept between runs.
 struct Prediction {
-  std::vector<uint32_t> sample;     // marched to learn from
+  std::vector<uint32_t> sample;      // marched to learn from
   std::vector<uint32_t> worthwhile;  // further rays to march
-  std::vector<uint8_t> blocks;      // state of each block's sample
+  std::vector<uint8_t> blocks;       // state of each block's sample
   size_t marched() const { return sample.size() + worthwhile.size(); }
 };
 

@@ -76,7 +76,6 @@ class Tracer {
                           Hit* hits) const;
 
  private:
-
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -6,7 +6,8 @@
 namespace hybray {
 
 std::span<const Experiment> experiments() {
-  static const std::vector<Experiment> all = {ssrm_experiment(), ssrm_speed_experiment(), caustics_experiment()};
+  static const std::vector<Experiment> all = {ssrm_experiment(), ssrm_speed_experiment(),
+                                              caustics_experiment()};
   return all;
 }
 

@@ -14,22 +14,23 @@ namespace {
 std::vector<Parameter> parameters() {
   using namespace parameter;
   std::vector<Parameter> p = ssrm_view_parameters();
-  p.insert(p.end(),
-           {
-               choice("marcher", "paper", {"paper"}, "Screen-space marcher."),
-               choice("predictor", "direction", {"sample", "direction", "history"},
-                      "What estimates a ray's chance: a sample of the frame; that and the ray's direction; "
-                      "these and the frame before."),
-               number("march_cost", "", 0.7, 0.0, 1.0,
-                      "T_SS / T_HW of a ray against the fastest mode: the chance from which on it is marched."),
-               number("march_cost_single", "", 0.3, 0.0, 1.0, "The same against single rays."),
-               number("path_step", "m", 0.05, 0.0, 1e6,
-                      "How far to the right the frame before was taken, for predictor history."),
-               flag("certified_misses", true,
-                    "Rays that pass in front of all conservative depth are not traced where the remaining "
-                    "segment is exact."),
-               repeats(),
-           });
+  p.insert(
+      p.end(),
+      {
+          choice("marcher", "paper", {"paper"}, "Screen-space marcher."),
+          choice("predictor", "direction", {"sample", "direction", "history"},
+                 "What estimates a ray's chance: a sample of the frame; that and the ray's direction; "
+                 "these and the frame before."),
+          number("march_cost", "", 0.7, 0.0, 1.0,
+                 "T_SS / T_HW of a ray against the fastest mode: the chance from which on it is marched."),
+          number("march_cost_single", "", 0.3, 0.0, 1.0, "The same against single rays."),
+          number("path_step", "m", 0.05, 0.0, 1e6,
+                 "How far to the right the frame before was taken, for predictor history."),
+          flag("certified_misses", true,
+               "Rays that pass in front of all conservative depth are not traced where the remaining "
+               "segment is exact."),
+          repeats(),
+      });
   return p;
 }
 
@@ -38,43 +39,54 @@ std::vector<Column> columns() {
   using enum Better;
   std::vector<Column> c;
   add_view_columns(c);
-  add(c, {
-             key("marcher", "screen-space marcher"),
-             key("predictor", "what estimates a ray's chance of a HIT"),
-             key("march_cost", "chance from which on a ray is marched, fastest mode"),
-             key("march_cost_single", "the same against single rays"),
-             key("path_step_m", "distance to the frame before", "m"),
-             key("certified_misses", "certified misses are not traced"),
-             share_of_rays("alpha", higher, "HIT / rays"),
-             share_of_rays("alpha_predicted", higher, "HIT / rays, of the rays marched against the fastest mode"),
-             share_of_rays("alpha_predicted_single", higher, "the same against single rays"),
-             share_of_rays("predicted_fraction", none, "rays sent straight to the fastest mode / rays"),
-             share_of_rays("predicted_single_fraction", none, "the same against single rays"),
-             share_of_rays("certified_miss_fraction", higher, "certified misses / rays"),
-             share_of_rays("certified_false_fraction", lower, "certified misses that truly hit something / those"),
-             share_of_rays("segment_changed_fraction", lower,
-                           "unresolved rays whose answer changes with the centre segment / unresolved rays"),
-             share_of_rays("segment_exact_changed_fraction", lower, "the same of the exact segment"),
-             share_of_rays("segment_centre_proved_fraction", higher,
-                           "start distance / true distance, mean over the unresolved rays that hit something"),
-             share_of_rays("segment_exact_proved_fraction", higher, "the same of the exact segment"),
-             follows_rays(counted("conservative_pixels", "pixels touched by triangles, summed over these")),
-             {"steps_per_ray", "1", ColumnKind::metric, lower, "depth samples read / rays", {}, {0.0, 10 * kMovedRays}},
-             {"segment_exact_steps_per_ray",
-              "1",
-              ColumnKind::metric,
-              lower,
-              "depth samples read for the exact segments / rays",
-              {},
-              {0.0, 10 * kMovedRays}},
-         });
+  add(c,
+      {
+          key("marcher", "screen-space marcher"),
+          key("predictor", "what estimates a ray's chance of a HIT"),
+          key("march_cost", "chance from which on a ray is marched, fastest mode"),
+          key("march_cost_single", "the same against single rays"),
+          key("path_step_m", "distance to the frame before", "m"),
+          key("certified_misses", "certified misses are not traced"),
+          share_of_rays("alpha", higher, "HIT / rays"),
+          share_of_rays("alpha_predicted", higher,
+                        "HIT / rays, of the rays marched against the fastest mode"),
+          share_of_rays("alpha_predicted_single", higher, "the same against single rays"),
+          share_of_rays("predicted_fraction", none, "rays sent straight to the fastest mode / rays"),
+          share_of_rays("predicted_single_fraction", none, "the same against single rays"),
+          share_of_rays("certified_miss_fraction", higher, "certified misses / rays"),
+          share_of_rays("certified_false_fraction", lower,
+                        "certified misses that truly hit something / those"),
+          share_of_rays("segment_changed_fraction", lower,
+                        "unresolved rays whose answer changes with the centre segment / unresolved rays"),
+          share_of_rays("segment_exact_changed_fraction", lower, "the same of the exact segment"),
+          share_of_rays("segment_centre_proved_fraction", higher,
+                        "start distance / true distance, mean over the unresolved rays that hit something"),
+          share_of_rays("segment_exact_proved_fraction", higher, "the same of the exact segment"),
+          follows_rays(counted("conservative_pixels", "pixels touched by triangles, summed over these")),
+          {"steps_per_ray",
+           "1",
+           ColumnKind::metric,
+           lower,
+           "depth samples read / rays",
+           {},
+           {0.0, 10 * kMovedRays}},
+          {"segment_exact_steps_per_ray",
+           "1",
+           ColumnKind::metric,
+           lower,
+           "depth samples read for the exact segments / rays",
+           {},
+           {0.0, 10 * kMovedRays}},
+      });
   add_time(c, "pyramid", "depth pyramid");
   add_time(c, "conservative", "conservative depth and its pyramid");
   add_time(c, "t_ss_scalar", "march of all rays, scalar code");
   add_time(c, "t_ss", "march of all rays, vector lanes");
   add_time(c, "t_hw", "general tracer on all rays in its fastest mode");
-  c.push_back(finding("hw_mode", "fastest mode of the general tracer for all rays, by measurement", Comparison::none));
-  c.push_back(finding("hw_mode_unresolved", "fastest mode for the unresolved rays, by measurement", Comparison::none));
+  c.push_back(finding("hw_mode", "fastest mode of the general tracer for all rays, by measurement",
+                      Comparison::none));
+  c.push_back(finding("hw_mode_unresolved", "fastest mode for the unresolved rays, by measurement",
+                      Comparison::none));
   add_time(c, "t_hw_single", "general tracer on all rays, one ray at a time");
   for (const auto& [end, with] : {std::pair("", "fastest mode"), std::pair("_single", "single rays")}) {
     const auto time = [&](const char* stem, const char* text) {
@@ -102,13 +114,15 @@ std::vector<Column> columns() {
   add_ratio(c, "speedup_centre_vs_single", "t_hw_single / t_centre_single");
   add_ratio(c, "speedup_exact_vs_single", "t_hw_single / t_exact_single");
   add_ratio(c, "speedup_exact_given_vs_single", "t_hw_single / t_exact_given_single");
-  add_interval(c, "predictor_efficiency", ColumnKind::time, higher,
-               "(t_hybrid - t_predicted) / (t_hybrid - t_oracle), by medians of the paired differences; empty where "
-               "the interval of the denominator includes 0");
+  add_interval(
+      c, "predictor_efficiency", ColumnKind::time, higher,
+      "(t_hybrid - t_predicted) / (t_hybrid - t_oracle), by medians of the paired differences; empty where "
+      "the interval of the denominator includes 0");
   add_interval(c, "predictor_efficiency_single", ColumnKind::time, higher, "the same against single rays");
   c.push_back({"t_partitioned_ms", "ms", ColumnKind::time, lower,
                "estimate alpha T_SS + (1 - alpha) T_HW (perfect predictor)"});
-  c.push_back({"t_partitioned_single_ms", "ms", ColumnKind::time, lower, "the same with T_HW of single rays"});
+  c.push_back(
+      {"t_partitioned_single_ms", "ms", ColumnKind::time, lower, "the same with T_HW of single rays"});
   add_ratio(c, "oracle_partitioned_ratio", "t_oracle / t_partitioned", lower);
   add_ratio(c, "oracle_partitioned_single_ratio", "t_oracle_single / t_partitioned_single", lower);
   add_repeats(c);
@@ -116,7 +130,7 @@ std::vector<Column> columns() {
 }
 
 double memory_bytes(const Point& point) {
-  constexpr double kPixel = 300.0;   // buffers, rays, hits and lists of every design
+  constexpr double kPixel = 300.0;  // buffers, rays, hits and lists of every design
   constexpr double kScene = 0.7e9;  // the largest of the known scenes with both acceleration structures
   const auto size = *parse_resolution(point.text("resolution"));
   return kScene + kPixel * size.width * size.height;
@@ -138,15 +152,16 @@ std::vector<SharedCost> shared_costs(const Point& point, const SceneFacts& scene
 }  // namespace ssrm_speed_parts
 
 const Experiment& ssrm_speed_experiment() {
-  static const Experiment experiment{"ssrm_speed",
-                                     "What the hybrid of screen-space marching and a general ray tracer costs and "
-                                     "saves, every design in one interleaved run.",
-                                     ssrm_speed_parts::parameters(),
-                                     ssrm_speed_parts::columns(),
-                                     ssrm_speed_parts::run,
-                                     ssrm_speed_parts::memory_bytes,
-                                     ssrm_speed_parts::cost_seconds,
-                                     ssrm_speed_parts::shared_costs};
+  static const Experiment experiment{
+      "ssrm_speed",
+      "What the hybrid of screen-space marching and a general ray tracer costs and "
+      "saves, every design in one interleaved run.",
+      ssrm_speed_parts::parameters(),
+      ssrm_speed_parts::columns(),
+      ssrm_speed_parts::run,
+      ssrm_speed_parts::memory_bytes,
+      ssrm_speed_parts::cost_seconds,
+      ssrm_speed_parts::shared_costs};
   return experiment;
 }
 

@@ -30,7 +30,11 @@ uint64_t hits_of(const ssrm::MarchResults& results) {
 class Designs {
  public:
   Designs(const SsrmSetup& setup, SsrmFrame& frame, const Tracer& tracer, const ssrm::TileHistory& history)
-      : setup_(setup), frame_(frame), tracer_(tracer), history_(history), buffers(frame.rays().size()),
+      : setup_(setup),
+        frame_(frame),
+        tracer_(tracer),
+        history_(history),
+        buffers(frame.rays().size()),
         exact(frame.view(), frame.rays().size()) {
     t_near.resize(frame.rays().size());
   }
@@ -65,14 +69,16 @@ class Designs {
   // The lists are known beforehand: nothing is compacted.
   void oracle(TraceMode mode, std::span<const uint32_t> resolved, std::span<const uint32_t> unresolved) {
     build_pyramid();
-    ssrm::march_paper_some(frame_.depth(), frame_.screen_rays, frame_.rays().pixel, resolved, kLanes, buffers.results);
+    ssrm::march_paper_some(frame_.depth(), frame_.screen_rays, frame_.rays().pixel, resolved, kLanes,
+                           buffers.results);
     tracer_.trace_some(frame_.rays(), unresolved, buffers.hits, mode);
   }
   void centre(TraceMode mode, ssrm::MarchResults& results) {
     build_pyramid();
     march(kLanes, results);
     compact(results);
-    ssrm::centre_segments(frame_.rays(), setup_.view, setup_.scene.bounds, results.proved, buffers.unresolved, t_near);
+    ssrm::centre_segments(frame_.rays(), setup_.view, setup_.scene.bounds, results.proved, buffers.unresolved,
+                          t_near);
     trace(mode, t_near);
   }
   void build_conservative() { ssrm::build_conservative(frame_.gbuffer, setup_.scene, exact); }
@@ -116,7 +122,8 @@ SegmentPrice price_of(const Tracer& robust, const RayStream& rays, std::span<con
   SegmentPrice price;
   for (const uint32_t i : which) {
     price.changed += hits.t[i] != truth.t[i];
-    if (truth.primitive[i] == kNoPrimitive) continue;
+    // A hit at the very origin leaves no way to be proved.
+    if (truth.primitive[i] == kNoPrimitive || !(truth.t[i] > 0.0f)) continue;
     ++price.hits;
     price.proved += std::min(1.0, static_cast<double>(t_near[i]) / static_cast<double>(truth.t[i]));
   }
@@ -167,8 +174,11 @@ ssrm::TileHistory history_of(const Point& point, const SsrmSetup& setup) {
   const vec3 step(setup.view.right() * -point.number("path_step"));
   camera.eye += step, camera.target += step;
   before.view = View(camera,
-                     {.width = setup.view.width(), .height = setup.view.height(), .near = setup.view.near(),
-                      .far = setup.view.far(), .convention = setup.view.convention()},
+                     {.width = setup.view.width(),
+                      .height = setup.view.height(),
+                      .near = setup.view.near(),
+                      .far = setup.view.far(),
+                      .convention = setup.view.convention()},
                      setup.scene.bounds);
   const SsrmFrame frame(before);
   ssrm::MarchResults results;
@@ -188,8 +198,8 @@ void add_predictions(Row& row, const Point& point, Designs& d, size_t rays) {
 }
 
 // Medians of the paired differences over one another; nothing where the denominator may be 0.
-void put_efficiency(Row& row, const std::string& name, std::span<const double> all, std::span<const double> predicted,
-                    std::span<const double> oracle, uint64_t seed) {
+void put_efficiency(Row& row, const std::string& name, std::span<const double> all,
+                    std::span<const double> predicted, std::span<const double> oracle, uint64_t seed) {
   std::vector<double> gain;
   for (size_t r = 0; r < all.size(); ++r) gain.push_back(all[r] - oracle[r]);
   const auto middle = [](std::span<const double> v) { return metrics::median(v); };
@@ -198,22 +208,27 @@ void put_efficiency(Row& row, const std::string& name, std::span<const double> a
   // Rounds are drawn together: their numbers are what is resampled.
   std::vector<double> rounds(all.size());
   std::iota(rounds.begin(), rounds.end(), 0.0);
-  put_interval(row, name, metrics::bootstrap(rounds, [&](std::span<const double> drawn) {
-    std::vector<double> gained, possible;
-    for (const double at : drawn) {
-      const auto r = static_cast<size_t>(at);
-      gained.push_back(all[r] - predicted[r]), possible.push_back(all[r] - oracle[r]);
-    }
-    return metrics::median(gained) / metrics::median(possible);
-  }, seed));
+  put_interval(row, name,
+               metrics::bootstrap(
+                   rounds,
+                   [&](std::span<const double> drawn) {
+                     std::vector<double> gained, possible;
+                     for (const double at : drawn) {
+                       const auto r = static_cast<size_t>(at);
+                       gained.push_back(all[r] - predicted[r]), possible.push_back(all[r] - oracle[r]);
+                     }
+                     return metrics::median(gained) / metrics::median(possible);
+                   },
+                   seed));
 }
 
-void add_times(Row& row, const Point& point, const SsrmSetup& setup, SsrmFrame& frame, const Tracer& tracer, Designs& d,
-               uint64_t seed) {
+void add_times(Row& row, const Point& point, const SsrmSetup& setup, SsrmFrame& frame, const Tracer& tracer,
+               Designs& d, uint64_t seed) {
   const RayStream& rays = frame.rays();
   std::vector<uint32_t> all(rays.size()), resolved, unresolved;
   std::iota(all.begin(), all.end(), 0u);
-  for (const uint32_t i : all) (d.buffers.results.verdict[i] == Verdict::hit ? resolved : unresolved).push_back(i);
+  for (const uint32_t i : all)
+    (d.buffers.results.verdict[i] == Verdict::hit ? resolved : unresolved).push_back(i);
   HitStream hits;
   hits.resize(rays.size());
   const TraceMode fast = fastest_trace_mode(tracer, rays, all, hits, seed);
@@ -235,7 +250,8 @@ void add_times(Row& row, const Point& point, const SsrmSetup& setup, SsrmFrame& 
   for (const bool single : {false, true}) {
     const std::string end = single ? "_single" : "";
     const TraceMode mode = single ? TraceMode::single : fast_unresolved;
-    const ssrm::PredictorOptions options = predictor_options(point, single ? "march_cost_single" : "march_cost");
+    const ssrm::PredictorOptions options =
+        predictor_options(point, single ? "march_cost_single" : "march_cost");
     variants.push_back({"t_hybrid" + end, [&, mode] { d.hybrid(mode); }});
     variants.push_back({"t_predicted" + end, [&, mode, options] { d.predicted(mode, options); }});
     variants.push_back({"t_oracle" + end, [&, mode] { d.oracle(mode, resolved, unresolved); }});
@@ -258,10 +274,15 @@ void add_times(Row& row, const Point& point, const SsrmSetup& setup, SsrmFrame& 
   for (const bool single : {false, true}) {
     const std::string end = single ? "_single" : "", versus = single ? "_vs_single" : "";
     const auto hw = of["t_hw" + end], oracle = of["t_oracle" + end];
-    for (const auto& [name, design] : {std::pair("measured", "t_hybrid"), {"predicted", "t_predicted"}, {"oracle", "t_oracle"},
-                                       {"free", "t_free"}, {"centre", "t_centre"}, {"exact", "t_exact"}})
+    for (const auto& [name, design] : {std::pair("measured", "t_hybrid"),
+                                       {"predicted", "t_predicted"},
+                                       {"oracle", "t_oracle"},
+                                       {"free", "t_free"},
+                                       {"centre", "t_centre"},
+                                       {"exact", "t_exact"}})
       put_ratio(row, std::string("speedup_") + name + versus, hw, of[design + end], seed);
-    put_efficiency(row, "predictor_efficiency" + end, of["t_hybrid" + end], of["t_predicted" + end], oracle, seed);
+    put_efficiency(row, "predictor_efficiency" + end, of["t_hybrid" + end], of["t_predicted" + end], oracle,
+                   seed);
     std::vector<double> partitioned;
     for (size_t r = 0; r < hw.size(); ++r)
       partitioned.push_back(ssrm::estimate_hybrid(alpha, of["t_ss"][r], hw[r]).partitioned);
@@ -294,7 +315,8 @@ Row run(const Point& point, Workspace& workspace) {
   row["steps_per_ray"] = share(designs.buffers.results.steps, rays.size());
   add_segments(row, setup, frame, designs);
   if (workspace.settings().timing && rays.size() > 0)
-    add_times(row, point, setup, frame, workspace.tracer(point.text("scene")), designs, workspace.settings().seed);
+    add_times(row, point, setup, frame, workspace.tracer(point.text("scene")), designs,
+              workspace.settings().seed);
   return row;
 }
 

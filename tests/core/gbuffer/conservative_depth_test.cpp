@@ -15,8 +15,8 @@ namespace {
 constexpr unsigned kBits = kDepth | kDepthDerivatives | kPrimitive;
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-// Cuts a polygon of view-space points (across, down, depth) by the plane through the eye n . p >= 0, or by the
-// near plane.
+// Cuts a polygon of view-space points (across, down, depth) by the plane through the eye n . p >= 0, or by
+// the near plane.
 std::vector<dvec3> cut_by(const std::vector<dvec3>& in, const dvec3& n, double offset = 0.0) {
   std::vector<dvec3> out;
   for (size_t i = 0; i < in.size(); ++i) {
@@ -79,17 +79,21 @@ TEST(ConservativeDepth, IsTheNearestOfAllTrianglesOverEachPixelsArea) {
         const double rim = pixel_rim(w, h) + view.focal() * 0x1p-20 * 8.0 / view.near();
         for (int y = 0; y < h; ++y)
           for (int x = 0; x < w; ++x) {
-            const double least = nearest_in(scene, view, x, y, 0.0), grown = nearest_in(scene, view, x, y, rim);
+            const double least = nearest_in(scene, view, x, y, 0.0),
+                         grown = nearest_in(scene, view, x, y, rim);
             const float found = c.nearest(x, y);
             if (found == view.background_depth()) {
               EXPECT_EQ(least, kFar) << x << " " << y << " seed " << seed;
               continue;
             }
             ASSERT_LT(grown, kFar) << x << " " << y << " of " << w << ", seed " << seed;
-            if (least < kFar) EXPECT_LE(sign * found, sign * view.device_depth(least)) << x << " " << y << " seed " << seed;
+            if (least < kFar)
+              EXPECT_LE(sign * found, sign * view.device_depth(least)) << x << " " << y << " seed " << seed;
             // Not nearer than the grown pixel's, but for the margins of depth and of the tracer's rounding.
-            const double slack = 2.0 * kDepthMargin + std::abs(view.device_depth(grown) - view.device_depth(grown - 0x1p-18));
-            EXPECT_GE(sign * found, sign * view.device_depth(grown) - slack) << x << " " << y << " seed " << seed;
+            const double slack =
+                2.0 * kDepthMargin + std::abs(view.device_depth(grown) - view.device_depth(grown - 0x1p-18));
+            EXPECT_GE(sign * found, sign * view.device_depth(grown) - slack)
+                << x << " " << y << " seed " << seed;
           }
       }
 }
@@ -97,7 +101,8 @@ TEST(ConservativeDepth, IsTheNearestOfAllTrianglesOverEachPixelsArea) {
 TEST(ConservativeDepth, ItsSlantedBoundsLieInFrontOfEverySurfacePoint) {
   const Scene scene = mixed_soup(4);
   const Tracer tracer(scene, {.robust = true});
-  const View view(Camera{"c", vec3(0.2f, 0.3f, 3.0f), vec3(0)}, {.width = 40, .height = 30, .near = 0.2}, scene.bounds);
+  const View view(Camera{"c", vec3(0.2f, 0.3f, 3.0f), vec3(0)}, {.width = 40, .height = 30, .near = 0.2},
+                  scene.bounds);
   const GBuffer g = make_gbuffer(tracer, view, kBits);
   ConservativeDepth c;
   make_conservative_depth(g, scene, c);

@@ -16,11 +16,12 @@ struct Predicted {
   Prediction prediction;
 };
 
-Predicted predicted(const test::MainView& v, const PredictorOptions& options, const TileHistory& history = {}) {
+Predicted predicted(const test::MainView& v, const PredictorOptions& options,
+                    const TileHistory& history = {}) {
   Predicted p;
   p.results.resize(v.rays.size());
-  march_predicted(v.depth(), v.screen_rays, v.rays.pixel, {.code = MarchCode::lanes}, options, history, p.results,
-                  p.prediction);
+  march_predicted(v.depth(), v.screen_rays, v.rays.pixel, {.code = MarchCode::lanes}, options, history,
+                  p.results, p.prediction);
   return p;
 }
 
@@ -34,7 +35,8 @@ TEST_P(PredictorTest, NeverChangesTheVerdictOfAMarchedRay) {
   for (const char* name : {"sphere", "atrium", "street"}) {
     const Scene scene = load_scene(test::scene_paths(), name);
     const Tracer tracer(scene, {.robust = true});
-    const View view(scene.cameras.at(0), {.width = GetParam().first, .height = GetParam().second}, scene.bounds);
+    const View view(scene.cameras.at(0), {.width = GetParam().first, .height = GetParam().second},
+                    scene.bounds);
     const test::MainView v(tracer, view);
     const MarchResults full = v.march();
     const TileHistory history = tile_history(full, v.rays.pixel, view.width(), view.height());
@@ -57,8 +59,11 @@ TEST_P(PredictorTest, NeverChangesTheVerdictOfAMarchedRay) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sizes, PredictorTest, testing::Values(std::pair(333, 217), std::pair(64, 1), std::pair(1, 1)),
-                         [](const auto& t) { return std::to_string(t.param.first) + "x" + std::to_string(t.param.second); });
+INSTANTIATE_TEST_SUITE_P(Sizes, PredictorTest,
+                         testing::Values(std::pair(333, 217), std::pair(64, 1), std::pair(1, 1)),
+                         [](const auto& t) {
+                           return std::to_string(t.param.first) + "x" + std::to_string(t.param.second);
+                         });
 
 // By the cost model: a march costs `cost` traces, and each ray that is no HIT is traced.
 TEST(Predictor, SavesMoreThanHalfOfWhatAPerfectPredictorSaves) {
@@ -69,7 +74,8 @@ TEST(Predictor, SavesMoreThanHalfOfWhatAPerfectPredictorSaves) {
   for (const double cost : {0.3, 0.5}) {
     const Predicted p = predicted(v, {.march_cost = cost});
     const auto n = static_cast<double>(full.size()), found = static_cast<double>(hits(full));
-    const double saved = cost * (n - static_cast<double>(p.prediction.marched())) - (found - static_cast<double>(hits(p.results)));
+    const double saved = cost * (n - static_cast<double>(p.prediction.marched())) -
+                         (found - static_cast<double>(hits(p.results)));
     EXPECT_GT(saved, 0.5 * cost * (n - found)) << "at cost " << cost;
   }
 }

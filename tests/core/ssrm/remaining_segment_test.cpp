@@ -58,7 +58,8 @@ TEST(RemainingSegment, WhatAMarchProvedIsInFrontOfTheHitWhereOneSurfaceFillsTheV
   test::add_rectangle(scene, vec3(-20, 0, 20), vec3(40, 0, 0), vec3(0, 0, -40), 5);
   test::add_rectangle(scene, vec3(-20, 0, -6), vec3(40, 0, 0), vec3(0, 20, 0), 5);
   const Tracer tracer(scene, {.robust = true});
-  const View view(Camera{"c", vec3(0.1f, 2.0f, 6.0f), vec3(0, 1.0f, -6)}, {.width = 160, .height = 120}, scene.bounds);
+  const View view(Camera{"c", vec3(0.1f, 2.0f, 6.0f), vec3(0, 1.0f, -6)}, {.width = 160, .height = 120},
+                  scene.bounds);
   const test::MainView v(tracer, view);
   std::vector<uint32_t> floor;
   for (uint32_t i = 0; i < v.rays.size(); ++i)
