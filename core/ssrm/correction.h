@@ -54,7 +54,8 @@ struct SlantedTest {
 };
 SlantedTest slanted_test(const DepthView& view, const ScreenRay<double>& ray, int x, int y);
 
-// Distance, metres, at which ray `i` meets a plane in `pixel`, or that pixel's own, kept inside its stay there.
+// Distance, metres, at which ray `i` meets a plane in `pixel`, or that pixel's own, kept inside its stay
+// there.
 double plane_distance(const PixelPlane& plane, const DepthView& depth, const ScreenRays& screen_rays,
                       const RayStream& rays, const View& view, size_t i, uint32_t pixel);
 double plane_distance(const DepthView& depth, const ScreenRays& screen_rays, const RayStream& rays,
@@ -65,6 +66,7 @@ double plane_distance(const DepthView& depth, const ScreenRays& screen_rays, con
 struct Correction {
   Verdict verdict;  // hit, behind or correction
   uint32_t pixel;
+  float l = 0.0f;  // of a march: MarchResults::proved
 };
 Correction correct(const DepthView& view, const ScreenRay<double>& ray, ivec2 pixel, ivec2 previous,
                    ivec2 origin);

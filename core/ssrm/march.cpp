@@ -31,6 +31,7 @@ void march_listed(const DepthView& view, const ScreenRays& rays, const std::vect
       const Correction c = march_ray(view, rays.get<float>(i), pixels[i], options, mine);
       results.verdict[i] = c.verdict;
       results.pixel[i] = c.pixel;
+      if (!results.proved.empty()) results.proved[i] = c.l;
     }
     steps += mine;
   });

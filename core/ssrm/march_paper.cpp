@@ -18,8 +18,8 @@ Correction march_paper_ray(const DepthView& view, const ScreenRay<float>& ray, u
                      static_cast<int>(pixel / static_cast<uint32_t>(view.width())));
   CellWalk<float> walk(ray, view.width(), view.height(), origin.x, origin.y);
   const auto first_exit = walk.exit(0);
-  if (ray.l_end <= first_exit.l()) return {ray.end, kNoPixel};
-  if (!walk.advance(first_exit)) return {Verdict::offscreen, kNoPixel};
+  if (ray.l_end <= first_exit.l()) return {ray.end, kNoPixel, ray.l_end};
+  if (!walk.advance(first_exit)) return {Verdict::offscreen, kNoPixel, walk.l};
 
   // Stage 2: march. A level up after an iteration without intersection, a level down to redo the cell where
   // there was one.
@@ -28,7 +28,7 @@ Correction march_paper_ray(const DepthView& view, const ScreenRay<float>& ray, u
   for (int level = 0;;) {
     bool intersects = false;
     for (int sample = 0; sample < kSamplesPerIteration; ++sample) {
-      if (steps == last_step) return {Verdict::budget, kNoPixel};
+      if (steps == last_step) return {Verdict::budget, kNoPixel, walk.l};
       ++steps;
       const auto exit = walk.exit(level);
       const bool ends = ray.l_end <= exit.l();
@@ -38,8 +38,8 @@ Correction march_paper_ray(const DepthView& view, const ScreenRay<float>& ray, u
         intersects = true;
         break;
       }
-      if (ends) return {ray.end, kNoPixel};
-      if (!walk.advance(exit)) return {Verdict::offscreen, kNoPixel};
+      if (ends) return {ray.end, kNoPixel, ray.l_end};
+      if (!walk.advance(exit)) return {Verdict::offscreen, kNoPixel, walk.l};
     }
     if (!intersects) {
       level = std::min(level + 1, top);
@@ -51,7 +51,10 @@ Correction march_paper_ray(const DepthView& view, const ScreenRay<float>& ray, u
   }
 
   // Stage 3: correction with slanted planes.
-  return correct(view, promoted(ray), {walk.px, walk.py}, walk.previous(), origin);
+  Correction c{Verdict::correction, kNoPixel};
+  if (options.correct) c = correct(view, promoted(ray), {walk.px, walk.py}, walk.previous(), origin);
+  c.l = walk.l;
+  return c;
 }
 
 }  // namespace hybray::ssrm

@@ -95,7 +95,7 @@ HWY_INLINE void correct_stopped(const DepthView& view, const WaveJob& job, March
 uint64_t march_paper_block(const DepthView& view, const WaveJob& job, size_t begin, size_t end,
                            MarchWave& wave) {
   const uint64_t steps = march_wave(job, PaperRule{view.pyramid.texels()}, begin, end, wave);
-  correct_stopped(view, job, wave.ended);
+  if (job.correct) correct_stopped(view, job, wave.ended);
   return steps;
 }
 

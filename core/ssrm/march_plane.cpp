@@ -50,7 +50,7 @@ Correction continue_plane_ray(const DepthView& view, const ScreenRay<float>& ray
   int level = 0, samples = from.samples;
   for (bool clear = from.clear;; clear = false) {
     if (!clear) {
-      if (steps == last_step) return {Verdict::budget, kNoPixel};
+      if (steps == last_step) return {Verdict::budget, kNoPixel, walk.l};
       ++steps;
     }
     const auto exit = walk.exit(level);
@@ -63,13 +63,14 @@ Correction continue_plane_ray(const DepthView& view, const ScreenRay<float>& ray
         samples = 0;
         continue;
       }
+      if (!options.correct) return {Verdict::correction, kNoPixel, walk.l};
       const PixelCrossing crossing = pixel_crossing(view, promoted(ray), walk.px, walk.py);
-      if (crossing == PixelCrossing::behind) return {Verdict::behind, kNoPixel};
+      if (crossing == PixelCrossing::behind) return {Verdict::behind, kNoPixel, walk.l};
       if (crossing == PixelCrossing::hit)
-        return {Verdict::hit, static_cast<uint32_t>(walk.py * view.width() + walk.px)};
+        return {Verdict::hit, static_cast<uint32_t>(walk.py * view.width() + walk.px), walk.l};
     }
-    if (ends) return {ray.end, kNoPixel};
-    if (!walk.advance(exit)) return {Verdict::offscreen, kNoPixel};
+    if (ends) return {ray.end, kNoPixel, ray.l_end};
+    if (!walk.advance(exit)) return {Verdict::offscreen, kNoPixel, walk.l};
     bool up = false;
     if (options.ascent == Ascent::parent) {
       up = (exit.lx <= walk.l && crosses_border_above(exit.border_x, level)) ||
@@ -88,8 +89,8 @@ Correction march_plane_ray(const DepthView& view, const ScreenRay<float>& ray, u
   CellWalk<float> walk(ray, width, view.height(), static_cast<int>(pixel) % width,
                        static_cast<int>(pixel) / width);
   const auto first_exit = walk.exit(0);
-  if (ray.l_end <= first_exit.l()) return {ray.end, kNoPixel};
-  if (!walk.advance(first_exit)) return {Verdict::offscreen, kNoPixel};
+  if (ray.l_end <= first_exit.l()) return {ray.end, kNoPixel, ray.l_end};
+  if (!walk.advance(first_exit)) return {Verdict::offscreen, kNoPixel, walk.l};
   return continue_plane_ray(view, ray, {.x = walk.px, .y = walk.py, .l = walk.l}, options, steps);
 }
 

@@ -73,7 +73,7 @@ uint64_t march_plane_block(const DepthView& view, const WaveJob& job, size_t beg
   const uint64_t steps = job.ascent == Ascent::parent
                              ? march_wave(job, PlaneRule<Ascent::parent>{texels}, begin, end, wave)
                              : march_wave(job, PlaneRule<Ascent::iteration>{texels}, begin, end, wave);
-  look_closer(view, job.rays, wave.ended);
+  if (job.correct) look_closer(view, job.rays, wave.ended);
   return steps;
 }
 
@@ -110,6 +110,7 @@ uint64_t march_plane_lanes(const DepthView& view, const ScreenRays& rays, const 
           const Correction c = continue_plane_ray(view, rays.get<float>(ray), from, options, mine);
           results.verdict[ray] = c.verdict;
           results.pixel[ray] = c.pixel;
+          if (!results.proved.empty()) results.proved[ray] = c.l;
         }
         steps += mine;
       });

@@ -4,7 +4,7 @@ namespace hybray::ssrm {
 namespace {
 
 // By WaveEnd; kAtEnd has its own, and kCleared none yet.
-constexpr Verdict kVerdictOf[] = {Verdict::miss,   Verdict::budget,     Verdict::behind, Verdict::hit,
+constexpr Verdict kVerdictOf[] = {Verdict::miss,   Verdict::budget,     Verdict::correction, Verdict::hit,
                                   Verdict::behind, Verdict::correction, Verdict::behind};
 
 }  // namespace
@@ -12,6 +12,7 @@ constexpr Verdict kVerdictOf[] = {Verdict::miss,   Verdict::budget,     Verdict:
 size_t write_results(const ScreenRays& rays, int width, const MarchWave::Ended& ended,
                      MarchResults& results) {
   size_t cleared = 0;
+  const bool proves = !results.proved.empty();
   // Without branches: how a ray ended is hard to predict.
   for (size_t i = 0; i < ended.count; ++i) {
     const uint32_t ray = ended.ray[i];
@@ -20,6 +21,7 @@ size_t write_results(const ScreenRays& rays, int width, const MarchWave::Ended& 
     results.verdict[ray] = how == kAtEnd ? at_end : kVerdictOf[how];
     results.pixel[ray] = how == kHit ? static_cast<uint32_t>(pixel) : kNoPixel;
     cleared += how == kCleared;
+    if (proves) results.proved[ray] = ended.l[i];
   }
   return cleared;
 }

@@ -48,6 +48,7 @@ struct WaveJob {
   int32_t width, height, levels;
   int32_t step_budget;  // 0: none
   Ascent ascent;
+  bool correct;
   alignas(64) LevelTable first_texel{}, row{};  // of each level; row: texels from one row to the next
 
   // No ray takes that many samples.
@@ -62,7 +63,8 @@ struct WaveJob {
         height(pyramid.height()),
         levels(pyramid.levels()),
         step_budget(options.step_budget < kUnlimited ? static_cast<int32_t>(options.step_budget) : 0),
-        ascent(options.ascent) {
+        ascent(options.ascent),
+        correct(options.correct) {
     for (int level = 0; level < levels; ++level) {
       first_texel[static_cast<size_t>(level)] = static_cast<int32_t>(pyramid.first_texel(level));
       row[static_cast<size_t>(level)] = pyramid.row_length(level);

@@ -36,11 +36,15 @@ struct MarchResults {
   std::vector<float> distance;  // metres, where a HIT lies by who found or checked it; not finite, or the
                                 // list empty: where the ray meets the accepted pixel's plane
   uint64_t steps = 0;           // depth samples read, all rays together
+  // L up to which each ray is in front of the stored depth: where it ended, or where it enters the pixel at
+  // which it stopped. Its own pixel is not looked at. Written only where ask_proved() made room for it.
+  std::vector<float> proved;
 
   void resize(size_t n) {
     verdict.resize(n);
     pixel.resize(n);
   }
+  void ask_proved() { proved.resize(size()); }
   size_t size() const { return verdict.size(); }
 };
 

@@ -15,6 +15,7 @@
 #include <cstring>
 #include <limits>
 #include <span>
+#include <type_traits>
 
 namespace hybray::embree {
 
@@ -195,6 +196,20 @@ struct Listed {
   }
 };
 
+// ... each from its own distance on.
+struct ListedFrom : Listed {
+  std::span<const float> near;
+
+  float t_near(size_t j) const { return near[which[j]]; }
+  template <int N, class Packet>
+  void fill(size_t first, Packet& p) const {
+    Listed::fill<N>(first, p);
+    for (int lane = 0; lane < N; ++lane) p.ray.tnear[lane] = t_near(first + static_cast<size_t>(lane));
+  }
+};
+template <class Rays>
+constexpr bool kHasNear = std::is_same_v<Rays, ListedFrom>;
+
 // Nearest hits of rays [begin, end), N neighbours at a time.
 template <int N, class Rays>
 void trace_packets(RTCScene scene, bool coherent, size_t begin, size_t end, const Rays& rays) {
@@ -213,7 +228,9 @@ void trace_packets(RTCScene scene, bool coherent, size_t begin, size_t end, cons
   const int count = static_cast<int>(end - first);
   for (int lane = 0; lane < N; ++lane) {
     // Lanes without a ray repeat the first, so that no number in the packet is left to chance.
-    set_lane(packet, lane, rays.ray(first + (lane < count ? lane : 0)));
+    const size_t from = first + static_cast<size_t>(lane < count ? lane : 0);
+    set_lane(packet, lane, rays.ray(from));
+    if constexpr (kHasNear<Rays>) packet.ray.tnear[lane] = rays.t_near(from);
     valid[lane] = lane < count ? -1 : 0;
   }
   clear_hits<N>(packet);
@@ -231,6 +248,7 @@ void trace_rays(RTCScene scene, TraceMode mode, size_t begin, size_t end, const 
       for (size_t i = begin; i < end; ++i) {
         const OriginAndDirection ray = rays.ray(i);
         set_ray(r, ray.origin, ray.direction, kInfinity);
+        if constexpr (kHasNear<Rays>) r.ray.tnear = rays.t_near(i);
         query(scene, q, r);
         rays.keep(i, ray_hit(r));
       }

@@ -74,9 +74,10 @@ class Tracer {
   void trace(const RayStream& rays, HitStream& hits, TraceMode mode) const;
 
   // The same for the rays listed in `which` (indices into `rays`), each result written to its own place in
-  // `hits`.
-  void trace_some(const RayStream& rays, std::span<const uint32_t> which, HitStream& hits,
-                  TraceMode mode) const;
+  // `hits`. `t_near`, if given, holds the distance from which on each ray of the stream looks for hits,
+  // metres, >= 0.
+  void trace_some(const RayStream& rays, std::span<const uint32_t> which, HitStream& hits, TraceMode mode,
+                  std::span<const float> t_near = {}) const;
 
   // Whether anything is in the way of each of rays.size() rays, all threads: 1 or 0 into `occluded` (resized
   // by the caller, same size). Rays start at t = 0 and end at their `lengths`, metres, or, where that is
@@ -104,9 +105,6 @@ class Tracer {
                    const PassedPrimitives* passed, Hit* hits) const;
 
  private:
-  void trace_blocks(const RayStream& rays, std::span<const uint32_t> which, size_t count, HitStream& hits,
-                    TraceMode mode) const;
-
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

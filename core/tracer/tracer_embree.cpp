@@ -161,25 +161,23 @@ void Tracer::intersect_batch(const RayLanes& rays, size_t count, const HitLanes&
 
 void Tracer::trace(const RayStream& rays, HitStream& hits, TraceMode mode) const {
   HYBRAY_CHECK_EQ(rays.size(), hits.size());
-  trace_blocks(rays, {}, rays.size(), hits, mode);
-}
-
-void Tracer::trace_some(const RayStream& rays, std::span<const uint32_t> which, HitStream& hits,
-                        TraceMode mode) const {
-  HYBRAY_CHECK_EQ(rays.size(), hits.size());
-  trace_blocks(rays, which, which.size(), hits, mode);
-}
-
-void Tracer::trace_blocks(const RayStream& rays, std::span<const uint32_t> which, size_t count,
-                          HitStream& hits, TraceMode mode) const {
   const RayLanes all{rays.ox.data(), rays.oy.data(), rays.oz.data(),
                      rays.dx.data(), rays.dy.data(), rays.dz.data()};
   const HitLanes to{hits.t.data(), hits.primitive.data(), nullptr, nullptr};
-  parallel_blocks(count, kBlock, [&](size_t begin, size_t end) {
-    if (which.empty())
-      embree::trace_rays(impl_->rtc, mode, begin, end, embree::Neighbours{all, to});
-    else
+  parallel_blocks(rays.size(), kBlock, [&](size_t begin, size_t end) {
+    embree::trace_rays(impl_->rtc, mode, begin, end, embree::Neighbours{all, to});
+  });
+}
+
+void Tracer::trace_some(const RayStream& rays, std::span<const uint32_t> which, HitStream& hits,
+                        TraceMode mode, std::span<const float> t_near) const {
+  HYBRAY_CHECK_EQ(rays.size(), hits.size());
+  if (!t_near.empty()) HYBRAY_CHECK_EQ(rays.size(), t_near.size());
+  parallel_blocks(which.size(), kBlock, [&](size_t begin, size_t end) {
+    if (t_near.empty())
       embree::trace_rays(impl_->rtc, mode, begin, end, embree::Listed{rays, which, hits});
+    else
+      embree::trace_rays(impl_->rtc, mode, begin, end, embree::ListedFrom{{rays, which, hits}, t_near});
   });
 }
 

@@ -41,8 +41,9 @@ std::vector<Parameter> ray_parameters() {
           number("sun_azimuth", "degrees", 30.0, 0.0, 360.0, "Direction of the sun, from +x toward +z."),
           integer("mirror_depth", "", 1, 1, kMostBounces,
                   "Reflections along a path of mirror rays; others have one."),
-          choice("marcher", "paper", {"paper", "plane"},
-"Screen-space marcher: the paper's, or the one that takes pixels and cells as slanted planes."),
+          choice(
+              "marcher", "paper", {"paper", "plane"},
+              "Screen-space marcher: the paper's, or the one that takes pixels and cells as slanted planes."),
           choice(
               "march_code", "lanes", {"scalar", "lanes"},
               "Marcher as scalar code, or many rays at a time in vector lanes: the same results, less time."),

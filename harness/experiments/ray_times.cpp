@@ -75,8 +75,7 @@ class RayTiming {
   void march(size_t b) {
     const RayBounce& bounce = frame_.bounces[b];
     const ssrm::DepthView depth{work_.pyramid, frame_.gbuffer.depth_derivatives,
-                                frame_.gbuffer.view.depth_sign(),
-                                work_.slanted ? &*work_.slanted : nullptr};
+                                frame_.gbuffer.view.depth_sign(), work_.slanted ? &*work_.slanted : nullptr};
     ssrm::march(depth, bounce.screen_rays, bounce.rays.pixel, frame_.march, work_.results[b]);
   }
   void trace_all(size_t b, TraceMode mode) {

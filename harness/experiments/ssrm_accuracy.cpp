@@ -21,7 +21,8 @@ std::vector<Parameter> parameters() {
       p.end(),
       {
           choice("marcher", "paper", {"paper", "plane", "level0", "dda", "hiz"},
-                 "Screen-space marcher: the strict hierarchical one, the strict one of slanted planes, the exhaustive one in double precision, "
+                 "Screen-space marcher: the strict hierarchical one, the strict one of slanted planes, the "
+                 "exhaustive one in double precision, "
                  "the "
                  "linear one with a thickness, the hierarchical one with thickness and confidence."),
           choice("check", "none",

@@ -1,8 +1,8 @@
 // One point of `ssrm_accuracy`: march, check, verdicts, times.
 #include "core/ssrm/hit_checks.h"
+#include "core/ssrm/march.h"
 #include "core/ssrm/march_dda.h"
 #include "core/ssrm/march_hiz.h"
-#include "core/ssrm/march.h"
 #include "core/truth/march_level0.h"
 #include "harness/experiments/cells.h"
 #include "harness/experiments/ssrm_accuracy.h"

@@ -63,7 +63,9 @@ TEST(PixelRays, OfEveryKindLeaveTheSurfaceAndRepeatThemselves) {
       if (glm::dot(n, dvec3(a.rays.origin(i)) - g.view.eye()) > 0.0) n = -n;
       EXPECT_GT(glm::dot(n, dvec3(a.rays.direction(i))), -1e-6);
       EXPECT_NEAR(glm::length(dvec3(a.rays.direction(i))), 1.0, 1e-6);
-      if (kind == RayKind::ambient) EXPECT_EQ(a.lengths[i], 0.7f);
+      if (kind == RayKind::ambient) {
+        EXPECT_EQ(a.lengths[i], 0.7f);
+      }
       if (kind == RayKind::shadow) {
         const dvec3 end =
             dvec3(a.rays.origin(i)) + static_cast<double>(a.lengths[i]) * dvec3(a.rays.direction(i));

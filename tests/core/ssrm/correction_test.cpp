@@ -59,8 +59,7 @@ void expect_float_accuracy(const Scene& scene, const Camera& camera, int width, 
       const auto exact =
           test::exact_hit(scene, 2 * wall, dvec3(v.rays.origin(i)), dvec3(v.rays.direction(i)), 1e30);
       ASSERT_TRUE(exact.has_value());
-      const double claimed =
-          plane_distance(v.depth(), v.screen_rays, v.rays, view, i, results.pixel[i]);
+      const double claimed = plane_distance(v.depth(), v.screen_rays, v.rays, view, i, results.pixel[i]);
       const double error = std::abs(claimed - *exact), bound = rounding_of(v, i, results.pixel[i], claimed);
       EXPECT_LE(error, bound) << "ray " << i << " claimed " << claimed << " exact " << *exact;
       worst = std::max(worst, error / *exact);

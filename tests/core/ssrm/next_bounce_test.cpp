@@ -51,7 +51,9 @@ TEST_F(ParallelMirrors, SendEveryPathWhereTheClosedFormDoes) {
       const bool goes_on = results.verdict[i] == Verdict::hit || hits.primitive[i] != kNoPrimitive;
       const double w = view_.view_depth(p), pixel = w / view_.focal() / std::abs(d.y);
       // Pixels at the rim show the mirror at their centre and not all over: within two of them either may be.
-      if (std::abs(beyond) > 2.0 * pixel + 0.05) EXPECT_EQ(goes_on, beyond < 0.0) << bounce << ' ' << i;
+      if (std::abs(beyond) > 2.0 * pixel + 0.05) {
+        EXPECT_EQ(goes_on, beyond < 0.0) << bounce << ' ' << i;
+      }
       if (!goes_on) continue;
       if (beyond > 0.0) {
         ++j;
@@ -95,7 +97,9 @@ TEST_F(ParallelMirrors, MarchFromTracedHitsThatTheViewShowsAndFromNoOthers) {
     const bool marched = std::isfinite(next.screen_rays.l_end[j]);
     differ += marched != (truth.visible[i] != 0);
     unseen += !marched;
-    if (!marched) EXPECT_EQ(results.verdict[j], Verdict::offscreen);
+    if (!marched) {
+      EXPECT_EQ(results.verdict[j], Verdict::offscreen);
+    }
     ++j;
   }
   EXPECT_EQ(j, next.rays.size());

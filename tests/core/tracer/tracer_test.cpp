@@ -106,6 +106,33 @@ TEST_P(TracerModes, GiveABatchTheHitsThatItsRaysHaveOneByOne) {
   }
 }
 
+TEST_P(TracerModes, StartEachRayOfAListAtItsOwnDistance) {
+  const Scene scene = test::triangle_soup(300, 0.4f, 1.0f, kSeed);
+  const Tracer tracer(scene, {.robust = true});
+  for (const size_t n : {1u, 3u, 4u, 17u, 2003u}) {
+    const RayStream rays = random_rays(n, 1.2f);
+    std::vector<uint32_t> which;
+    std::vector<float> near(n);
+    for (uint32_t i = 0; i < n; ++i) {
+      near[i] = static_cast<float>(1.5 * random_unit(i, 9, 0, kSeed));
+      if (i % 3 != 1) which.push_back(i);
+    }
+    HitStream hits;
+    hits.resize(n);
+    tracer.trace_some(rays, which, hits, GetParam(), near);
+    size_t different = 0, later = 0;
+    for (const uint32_t i : which) {
+      const Hit alone = tracer.intersect(rays.origin(i), rays.direction(i), near[i]);
+      different += hits.primitive[i] != alone.primitive;
+      later += alone.primitive != tracer.intersect(rays.origin(i), rays.direction(i)).primitive;
+    }
+    EXPECT_LE(different, 1u) << n << ", seed " << kSeed;
+    if (n > 1000) {
+      EXPECT_GT(later, n / 20) << "of the rays, so many skip a hit";
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(All, TracerModes, testing::ValuesIn(kAllTraceModes),
                          [](const auto& test) { return std::string(label(test.param)); });
 

@@ -39,7 +39,9 @@ class RayKindsTest : public testing::Test {
 TEST_F(RayKindsTest, OneMirrorBounceIsWhatTheExperimentSsrmMeasures) {
   const Row old = run(ssrm_experiment(), {{"march_code", text("lanes")}}), row = rays({});
   for (const auto& [name, value] : old)
-    if (row.contains(name)) EXPECT_EQ(row.at(name), value) << name;
+    if (row.contains(name)) {
+      EXPECT_EQ(row.at(name), value) << name;
+    }
   EXPECT_EQ(row.at("alpha"), old.at("alpha"));
   EXPECT_EQ(row.at("alpha_bounce_1"), old.at("alpha"));
 }

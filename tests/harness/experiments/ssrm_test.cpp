@@ -77,9 +77,10 @@ TEST_F(SsrmTest, EveryCellItFillsIsADeclaredColumn) {
     for (const auto& [name, value] : row) EXPECT_TRUE(declared.count(name)) << name;
     for (const std::string& name : declared) {
       const bool of_plane = name == "bounds" || name == "ascent";
-      if (name != "level0_margin_ulp")
+      if (name != "level0_margin_ulp") {
         EXPECT_EQ(row.count(name) != 0, !of_plane || row.at("marcher") == Value(std::string("plane")))
             << name;
+      }
     }
   }
 }
