@@ -15,6 +15,48 @@ int blocks_across(int pixels) {
   return (pixels + kSampleBlock - 1) / kSampleBlock;
 }
 
+// Row and column of a pixel, without a division.
+class PixelPlace {
+ public:
+  explicit PixelPlace(int width) : width_(width), inverse_(1.0 / width) {}
+  ivec2 operator()(uint32_t pixel) const {
+    // Exact: a half is further from the next whole row than rounding reaches.
+    const int row = static_cast<int>((static_cast<double>(pixel) + 0.5) * inverse_);
+    return {static_cast<int>(pixel) - row * width_, row};
+  }
+
+ private:
+  int width_;
+  double inverse_;
+};
+
+bool is_sampled(ivec2 at) {
+  return at.x % kSampleBlock == 1 && at.y % kSampleBlock == 1;
+}
+
+// The numbers below n that `wanted` keeps, in order at any number of threads. `scratch` is kept between
+// calls.
+template <class Wanted>
+void list_where(size_t n, const Wanted& wanted, std::vector<uint32_t>& scratch, std::vector<uint32_t>& list) {
+  constexpr size_t kBlock = 16384;
+  std::vector<size_t> first((n + kBlock - 1) / kBlock + 1, 0);
+  scratch.resize(n);
+  parallel_blocks(n, kBlock, [&](size_t begin, size_t end) {
+    size_t count = 0;
+    for (size_t i = begin; i < end; ++i) {
+      scratch[begin + count] = static_cast<uint32_t>(i);
+      count += wanted(i);
+    }
+    first[begin / kBlock + 1] = count;
+  });
+  for (size_t b = 1; b < first.size(); ++b) first[b] += first[b - 1];
+  list.resize(first.back());
+  parallel_blocks(n, kBlock, [&](size_t begin, size_t) {
+    const size_t b = begin / kBlock;
+    std::copy_n(scratch.data() + begin, first[b + 1] - first[b], list.data() + first[b]);
+  });
+}
+
 // Rays that run alike: by the pixels that they cross until they leave the screen, and by whether they come
 // nearer to the viewer.
 constexpr size_t kClasses = 16;
@@ -96,13 +138,11 @@ TileHistory tile_history(const MarchResults& results, const std::vector<uint32_t
 }
 
 void choose_sample(const std::vector<uint32_t>& pixels, int width, int height, Prediction& p) {
-  p.sample.clear();
   p.blocks.assign(static_cast<size_t>(blocks_across(width)) * static_cast<size_t>(blocks_across(height)),
                   kNoSample);
-  for (uint32_t i = 0; i < pixels.size(); ++i) {
-    const uint32_t x = pixels[i] % static_cast<uint32_t>(width), y = pixels[i] / static_cast<uint32_t>(width);
-    if (x % kSampleBlock == 1 && y % kSampleBlock == 1) p.sample.push_back(i);
-  }
+  const PixelPlace place(width);
+  list_where(
+      pixels.size(), [&](size_t i) { return is_sampled(place(pixels[i])); }, p.scratch, p.sample);
 }
 
 void predict(const DepthView& view, const ScreenRays& rays, const std::vector<uint32_t>& pixels,
@@ -133,27 +173,16 @@ void predict(const DepthView& view, const ScreenRays& rays, const std::vector<ui
     }
     return hits >= least * weight;
   };
-  // Two passes, so that the list is in order at any number of threads.
-  constexpr size_t kBlock = 16384;
-  const size_t blocks = (pixels.size() + kBlock - 1) / kBlock;
-  std::vector<std::vector<uint32_t>> lists(blocks);
-  parallel_blocks(pixels.size(), kBlock, [&](size_t begin, size_t end) {
-    std::vector<uint32_t>& list = lists[begin / kBlock];
-    list.reserve(end - begin);
-    for (size_t i = begin; i < end; ++i) {
-      const auto x = static_cast<int>(pixels[i] % w32), y = static_cast<int>(pixels[i] / w32);
-      if (x % kSampleBlock == 1 && y % kSampleBlock == 1) continue;
-      if (worthwhile(static_cast<uint32_t>(i), x, y)) {
-        list.push_back(static_cast<uint32_t>(i));
-      } else {
-        results.verdict[i] = Verdict::budget;
-        results.pixel[i] = kNoPixel;
-      }
-    }
-  });
-  p.worthwhile.clear();
-  for (const std::vector<uint32_t>& list : lists)
-    p.worthwhile.insert(p.worthwhile.end(), list.begin(), list.end());
+  const PixelPlace place(width);
+  const auto wanted = [&](size_t i) {
+    const ivec2 at = place(pixels[i]);
+    if (is_sampled(at)) return false;
+    if (worthwhile(static_cast<uint32_t>(i), at.x, at.y)) return true;
+    results.verdict[i] = Verdict::budget;
+    results.pixel[i] = kNoPixel;
+    return false;
+  };
+  list_where(pixels.size(), wanted, p.scratch, p.worthwhile);
 }
 
 void march_predicted(const DepthView& view, const ScreenRays& rays, const std::vector<uint32_t>& pixels,

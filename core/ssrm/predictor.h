@@ -36,6 +36,7 @@ struct Prediction {
   std::vector<uint32_t> sample;      // marched to learn from
   std::vector<uint32_t> worthwhile;  // further rays to march
   std::vector<uint8_t> blocks;       // state of each block's sample
+  std::vector<uint32_t> scratch;
   size_t marched() const { return sample.size() + worthwhile.size(); }
 };
 
