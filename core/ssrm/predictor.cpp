@@ -77,14 +77,14 @@ size_t class_of(const ScreenRays& rays, size_t i, int width, int height) {
   return 4 * depth + length;
 }
 
+// Share of HITs among the sampled rays of each class.
 using Chances = std::array<float, kClasses>;
-Chances chances_by_class(const ScreenRays& rays, const MarchResults& results, const Prediction& p, int width,
-                         int height) {
+Chances chances_by_class(const Prediction& p) {
   std::array<uint32_t, kClasses> hits{}, all{};
-  for (const uint32_t i : p.sample) {
-    const size_t c = class_of(rays, i, width, height);
-    ++all[c];
-    hits[c] += results.verdict[i] == Verdict::hit;
+  for (size_t b = 0; b < p.blocks.size(); ++b) {
+    if (p.blocks[b] == kNoSample) continue;
+    ++all[p.classes[b]];
+    hits[p.classes[b]] += p.blocks[b] == kHit;
   }
   Chances chances{};
   for (size_t c = 0; c < kClasses; ++c)
@@ -92,27 +92,20 @@ Chances chances_by_class(const ScreenRays& rays, const MarchResults& results, co
   return chances;
 }
 
-// Sum of bilinear weights of the samples around a pixel, and of those that hit.
+// Weights of the samples in a block and its eight neighbours, and of those that hit.
 struct Around {
   float weight = 0.0f, hits = 0.0f;
 };
-Around samples_around(const Prediction& p, int x, int y, int across, int down) {
-  // In blocks, from the place of a block's sample.
-  const float fx = (static_cast<float>(x) - 1.0f) / kSampleBlock,
-              fy = (static_cast<float>(y) - 1.0f) / kSampleBlock;
-  const int bx = static_cast<int>(std::floor(fx)), by = static_cast<int>(std::floor(fy));
-  const float ax = fx - static_cast<float>(bx), ay = fy - static_cast<float>(by);
+Around samples_around(const Prediction& p, int bx, int by, int across, int down) {
+  constexpr float kWeights[3] = {0.5f, 1.0f, 0.5f};
   Around a;
-  for (int j = 0; j < 2; ++j)
-    for (int i = 0; i < 2; ++i) {
-      const int cx = bx + i, cy = by + j;
-      if (cx < 0 || cy < 0 || cx >= across || cy >= down) continue;
+  for (int y = std::max(0, by - 1); y <= std::min(down - 1, by + 1); ++y)
+    for (int x = std::max(0, bx - 1); x <= std::min(across - 1, bx + 1); ++x) {
       const uint8_t state =
-          p.blocks[static_cast<size_t>(cy) * static_cast<size_t>(across) + static_cast<size_t>(cx)];
-      if (state == kNoSample) continue;
-      const float w = (i ? ax : 1.0f - ax) * (j ? ay : 1.0f - ay);
+          p.blocks[static_cast<size_t>(y) * static_cast<size_t>(across) + static_cast<size_t>(x)];
+      const float w = state == kNoSample ? 0.0f : kWeights[x - bx + 1] * kWeights[y - by + 1];
       a.weight += w;
-      if (state == kHit) a.hits += w;
+      a.hits += state == kHit ? w : 0.0f;
     }
   return a;
 }
@@ -150,34 +143,46 @@ void predict(const DepthView& view, const ScreenRays& rays, const std::vector<ui
              Prediction& p) {
   const int width = view.width(), height = view.height(), across = blocks_across(width),
             down = blocks_across(height);
-  const auto w32 = static_cast<uint32_t>(width);
-  for (const uint32_t i : p.sample) {
-    const uint32_t x = pixels[i] % w32 / kSampleBlock, y = pixels[i] / w32 / kSampleBlock;
-    p.blocks[y * static_cast<size_t>(across) + x] = results.verdict[i] == Verdict::hit ? kHit : kNoHit;
-  }
-  const Chances by_class = chances_by_class(rays, results, p, width, height);
+  const PixelPlace place(width);
+  const auto block_of = [&](ivec2 at) {
+    return static_cast<size_t>(at.y / kSampleBlock) * static_cast<size_t>(across) +
+           static_cast<size_t>(at.x / kSampleBlock);
+  };
+  p.classes.resize(p.blocks.size());
+  p.worth.resize(p.blocks.size());
+  parallel_blocks(p.sample.size(), 4096, [&](size_t begin, size_t end) {
+    for (size_t j = begin; j < end; ++j) {
+      const uint32_t i = p.sample[j];
+      const size_t block = block_of(place(pixels[i]));
+      p.blocks[block] = results.verdict[i] == Verdict::hit ? kHit : kNoHit;
+      p.classes[block] = static_cast<uint8_t>(class_of(rays, i, width, height));
+    }
+  });
+  const Chances by_class = chances_by_class(p);
   const auto prior_weight = static_cast<float>(options.prior_weight),
              least = static_cast<float>(options.march_cost);
-  const auto worthwhile = [&](uint32_t i, int x, int y) {
-    const Around a = samples_around(p, x, y, across, down);
-    float weight = a.weight, hits = a.hits;
-    if (options.by_direction || a.weight == 0.0f) {
-      weight += prior_weight;
-      hits += prior_weight * by_class[class_of(rays, i, width, height)];
-    }
-    if (!history.chance.empty()) {
-      const float chance =
-          history.chance[static_cast<size_t>(y / kHistoryTile) * static_cast<size_t>(history.width) +
-                         static_cast<size_t>(x / kHistoryTile)];
-      if (chance >= 0.0f) weight += prior_weight, hits += prior_weight * chance;
-    }
-    return hits >= least * weight;
-  };
-  const PixelPlace place(width);
+  parallel_blocks(static_cast<size_t>(down), 8, [&](size_t begin, size_t end) {
+    for (int by = static_cast<int>(begin); by < static_cast<int>(end); ++by)
+      for (int bx = 0; bx < across; ++bx) {
+        const size_t block = block_of({bx * kSampleBlock, by * kSampleBlock});
+        auto [weight, hits] = samples_around(p, bx, by, across, down);
+        if (options.by_direction && p.blocks[block] != kNoSample)
+          weight += prior_weight, hits += prior_weight * by_class[p.classes[block]];
+        if (!history.chance.empty()) {
+          constexpr int kBlocks = kHistoryTile / kSampleBlock;
+          const float chance =
+              history.chance[static_cast<size_t>(by / kBlocks) * static_cast<size_t>(history.width) +
+                             static_cast<size_t>(bx / kBlocks)];
+          if (chance >= 0.0f) weight += prior_weight, hits += prior_weight * chance;
+        }
+        // Where nothing is known, a march finds out.
+        p.worth[block] = hits >= least * weight;
+      }
+  });
   const auto wanted = [&](size_t i) {
     const ivec2 at = place(pixels[i]);
     if (is_sampled(at)) return false;
-    if (worthwhile(static_cast<uint32_t>(i), at.x, at.y)) return true;
+    if (p.worth[block_of(at)]) return true;
     results.verdict[i] = Verdict::budget;
     results.pixel[i] = kNoPixel;
     return false;

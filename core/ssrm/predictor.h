@@ -1,10 +1,11 @@
 // Which rays are worth a march: those with little chance of a HIT go straight to the general tracer. It
 // changes time and alpha, never the verdict of a ray that is marched.
 //
-// One ray of each 4x4 pixels is marched first. The chance of another ray is estimated from the samples around
-// it and, where those say little, from rays that run alike (toward the viewer or away, with a long or a short
-// way to the screen's edge) and from what the same part of the screen saw in the frame before. A march pays
-// where the trace that it may save costs more than itself: chance * T_HW > T_SS.
+// One ray of each block of 4x4 pixels is marched first. The chance of the others is estimated for the block
+// as a whole, which costs next to nothing: from the samples in and around it, from rays that run like its own
+// (toward the viewer or away, with a long or a short way to the screen's edge), and from what the same part
+// of the screen saw in the frame before. A march pays where the trace that it may save costs more than
+// itself: chance * T_HW > T_SS.
 #pragma once
 
 #include "core/ssrm/march.h"
@@ -35,7 +36,9 @@ TileHistory tile_history(const MarchResults& results, const std::vector<uint32_t
 struct Prediction {
   std::vector<uint32_t> sample;      // marched to learn from
   std::vector<uint32_t> worthwhile;  // further rays to march
-  std::vector<uint8_t> blocks;       // state of each block's sample
+  std::vector<uint8_t> blocks;       // of each block: state of its sample,
+  std::vector<uint8_t> classes;      // its class,
+  std::vector<uint8_t> worth;        // and whether its other rays are worth a march
   std::vector<uint32_t> scratch;
   size_t marched() const { return sample.size() + worthwhile.size(); }
 };
@@ -44,8 +47,8 @@ struct Prediction {
 void choose_sample(const std::vector<uint32_t>& pixels, int width, int height, Prediction& prediction);
 
 // From the samples' verdicts in `results`: which of the others to march. Rays that are not marched get
-// Verdict::budget there: a budget of no step at all. Where a block has no sample, its neighbours' stand in,
-// then the priors.
+// Verdict::budget there: a budget of no step at all. Where a block has no sample, its neighbours' stand in;
+// where nothing is known, its rays are marched.
 void predict(const DepthView& view, const ScreenRays& rays, const std::vector<uint32_t>& pixels,
              const PredictorOptions& options, const TileHistory& history, MarchResults& results,
              Prediction& prediction);
