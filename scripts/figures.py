@@ -14,7 +14,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 
 try:
-    from figures import accuracy, caustics, pictures, scaling, ssrm, ssrm_layers, ssrm_rays, time_error
+    from figures import accuracy, caustics, designs, pictures, scaling, ssrm, ssrm_layers, ssrm_rays, time_error
     from figures.results import Results, Skip
     from inputs import InputError
 except ModuleNotFoundError as missing:
@@ -28,6 +28,7 @@ FIGURES: dict[str, Draw] = {
     "ssrm_verdicts": pictures.draw_verdicts,
     "ssrm_alpha": ssrm.draw_alpha,
     "ssrm_precision_recall": ssrm.draw_precision_recall,
+    "ssrm_designs": designs.draw,
     "ssrm_scaling": scaling.draw,
     "ssrm_thickness": accuracy.draw,
     "ssrm_layers": ssrm_layers.draw,

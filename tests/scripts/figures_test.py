@@ -35,6 +35,10 @@ class Figures(unittest.TestCase):
                                            for i, (m, c, t, p) in enumerate([("paper", "none", "", 0.98), ("paper", "strict", "", 1),
                                                                              ("dda", "none", 0.1, 0.8), ("dda", "none", 1, 0.6),
                                                                              ("hiz", "none", 0.1, 0.9), ("hiz", "none", 1, 0)])])
+        write(self.root, "ssrm_speed", [
+            changed(SSRM, marcher=m, scene=s, **{f"speedup_{d}{e}": 1 + 0.1 * len(d + m) for e in ("", "_vs_single")
+                                                 for d in ("measured", "predicted", "centre", "exact", "oracle", "free")})
+            for m in ("paper", "plane") for s in ("sphere", "street")])
         write(self.root, "ssrm_scaling", [
             changed(SSRM, scene=s, width=w, height=w * 9 // 16, marcher=m, triangles=t, rays=1000, t_ss_ms=w / 1000)
             for m in ("paper", "plane") for s, w, t in (("atrium_10", 1920, 1000), ("atrium", 1920, 200000), ("sponza", 1280, 2), ("sponza", 1920, 2))])
@@ -70,7 +74,7 @@ class Figures(unittest.TestCase):
         self.assertEqual(outputs[0].keys(), outputs[1].keys())
         for name, content in outputs[0].items():
             self.assertEqual(content, outputs[1][name], name)
-        for name in ("ssrm_times", "ssrm_verdicts", "ssrm_alpha", "ssrm_precision_recall", "ssrm_scaling", "ssrm_thickness", "ssrm_layers", "ssrm_breakeven",
+        for name in ("ssrm_times", "ssrm_verdicts", "ssrm_alpha", "ssrm_precision_recall", "ssrm_designs", "ssrm_scaling", "ssrm_thickness", "ssrm_layers", "ssrm_breakeven",
                      "ssrm_distribution", "caustics_onoff", "caustics_rays_objects",
                      "caustics_depth_objects", "caustics_lights", "time_error_ssrm_tables", "time_error_caustics_rays_objects"):
             pdf, svg, png = (outputs[0][f"{name}.{kind}"] for kind in ("pdf", "svg", "png"))
@@ -130,7 +134,7 @@ class Figures(unittest.TestCase):
         self.assertIn("made     ssrm_tables: ssrm_tables (txt, tex)\n", done.stdout)
         self.assertIn(f"skipped  caustics_lights: no caustics_lights.csv in {self.root}\n", done.stdout)
         self.assertIn("skipped  ssrm_verdicts: no pictures beside", done.stdout)
-        self.assertEqual(len(re.findall(r"^(made|skipped) ", done.stdout, re.MULTILINE)), 17)
+        self.assertEqual(len(re.findall(r"^(made|skipped) ", done.stdout, re.MULTILINE)), 18)
         self.assertFalse(list((self.root / "figures").glob("caustics*")))
 
     def test_names_file_and_column_and_draws_the_others(self):
