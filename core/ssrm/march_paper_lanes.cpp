@@ -7,16 +7,10 @@
 
 #include "core/ssrm/march_paper_lanes.h"
 
-#include "core/base/check.h"
-#include "core/base/parallel.h"
 #include "core/ssrm/march_wave-inl.h"
 #include "core/ssrm/plane_lanes-inl.h"
 
-#include <atomic>
-#include <memory>
-
 #include <hwy/highway.h>
-#include <tbb/enumerable_thread_specific.h>
 
 HWY_BEFORE_NAMESPACE();
 namespace hybray::ssrm {
@@ -111,17 +105,12 @@ HWY_EXPORT(march_paper_block);
 uint64_t march_paper_lanes(const DepthView& view, const ScreenRays& rays, const std::vector<uint32_t>& pixels,
                            std::span<const uint32_t> which, const MarchOptions& options,
                            MarchResults& results) {
-  HYBRAY_CHECK_LE(static_cast<size_t>(view.pyramid.levels()), kMostLevels);
   const WaveJob job(rays, pixels, which, view.pyramid, options);
-  std::atomic<uint64_t> steps{0};
-  tbb::enumerable_thread_specific<std::unique_ptr<MarchWave>> waves(std::make_unique<MarchWave>);
-  parallel_blocks(which.empty() ? rays.size() : which.size(), MarchWave::kSize,
-                  [&](size_t begin, size_t end) {
-                    MarchWave& wave = *waves.local();
-                    steps += HWY_DYNAMIC_DISPATCH(march_paper_block)(view, job, begin, end, wave);
-                    write_results(rays, view.width(), wave.ended, results);
-                  });
-  return steps;
+  return march_in_blocks(job, [&](size_t begin, size_t end, MarchWave& wave) {
+    const uint64_t steps = HWY_DYNAMIC_DISPATCH(march_paper_block)(view, job, begin, end, wave);
+    write_results(rays, view.width(), wave.ended, results);
+    return steps;
+  });
 }
 
 }  // namespace hybray::ssrm

@@ -7,17 +7,11 @@
 
 #include "core/ssrm/march_plane_lanes.h"
 
-#include "core/base/check.h"
-#include "core/base/parallel.h"
 #include "core/ssrm/march_plane.h"
 #include "core/ssrm/march_wave-inl.h"
 #include "core/ssrm/plane_lanes-inl.h"
 
-#include <atomic>
-#include <memory>
-
 #include <hwy/highway.h>
-#include <tbb/enumerable_thread_specific.h>
 
 HWY_BEFORE_NAMESPACE();
 namespace hybray::ssrm {
@@ -89,32 +83,25 @@ HWY_EXPORT(march_plane_block);
 uint64_t march_plane_lanes(const DepthView& view, const ScreenRays& rays, const std::vector<uint32_t>& pixels,
                            std::span<const uint32_t> which, const MarchOptions& options,
                            MarchResults& results) {
-  HYBRAY_CHECK_LE(static_cast<size_t>(view.slanted->levels()), kMostLevels);
   const WaveJob job(rays, pixels, which, *view.slanted, options);
-  std::atomic<uint64_t> steps{0};
-  tbb::enumerable_thread_specific<std::unique_ptr<MarchWave>> waves(std::make_unique<MarchWave>);
-  parallel_blocks(
-      which.empty() ? rays.size() : which.size(), MarchWave::kSize, [&](size_t begin, size_t end) {
-        MarchWave& wave = *waves.local();
-        uint64_t mine = HWY_DYNAMIC_DISPATCH(march_plane_block)(view, job, begin, end, wave);
-        const MarchWave::Ended& ended = wave.ended;
-        size_t cleared = write_results(rays, view.width(), ended, results);
-        // The few that a closer look clears go on as scalar code.
-        for (size_t i = 0; cleared > 0; ++i) {
-          if (ended.how[i] != kCleared) continue;
-          --cleared;
-          const uint32_t ray = ended.ray[i];
-          const PlaneMarch from{ended.x[i],       ended.y[i],
-                                ended.l[i],       static_cast<uint64_t>(ended.taken[i]),
-                                ended.samples[i], true};
-          const Correction c = continue_plane_ray(view, rays.get<float>(ray), from, options, mine);
-          results.verdict[ray] = c.verdict;
-          results.pixel[ray] = c.pixel;
-          if (!results.proved.empty()) results.proved[ray] = c.l;
-        }
-        steps += mine;
-      });
-  return steps;
+  return march_in_blocks(job, [&](size_t begin, size_t end, MarchWave& wave) {
+    uint64_t steps = HWY_DYNAMIC_DISPATCH(march_plane_block)(view, job, begin, end, wave);
+    const MarchWave::Ended& ended = wave.ended;
+    size_t cleared = write_results(rays, view.width(), ended, results);
+    // The few that a closer look clears go on as scalar code.
+    for (size_t i = 0; cleared > 0; ++i) {
+      if (ended.how[i] != kCleared) continue;
+      --cleared;
+      const uint32_t ray = ended.ray[i];
+      const PlaneMarch from{ended.x[i],       ended.y[i], ended.l[i], static_cast<uint64_t>(ended.taken[i]),
+                            ended.samples[i], true};
+      const Correction c = continue_plane_ray(view, rays.get<float>(ray), from, options, steps);
+      results.verdict[ray] = c.verdict;
+      results.pixel[ray] = c.pixel;
+      if (!results.proved.empty()) results.proved[ray] = c.l;
+    }
+    return steps;
+  });
 }
 
 }  // namespace hybray::ssrm

@@ -1,5 +1,12 @@
 #include "core/ssrm/march_wave.h"
 
+#include "core/base/parallel.h"
+
+#include <atomic>
+#include <memory>
+
+#include <tbb/enumerable_thread_specific.h>
+
 namespace hybray::ssrm {
 namespace {
 
@@ -24,6 +31,15 @@ size_t write_results(const ScreenRays& rays, int width, const MarchWave::Ended& 
     if (proves) results.proved[ray] = ended.l[i];
   }
   return cleared;
+}
+
+uint64_t march_in_blocks(const WaveJob& job,
+                         const std::function<uint64_t(size_t, size_t, MarchWave&)>& block) {
+  std::atomic<uint64_t> steps{0};
+  tbb::enumerable_thread_specific<std::unique_ptr<MarchWave>> waves(std::make_unique<MarchWave>);
+  parallel_blocks(job.which.empty() ? job.rays.size() : job.which.size(), MarchWave::kSize,
+                  [&](size_t begin, size_t end) { steps += block(begin, end, *waves.local()); });
+  return steps;
 }
 
 }  // namespace hybray::ssrm

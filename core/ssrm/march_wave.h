@@ -2,12 +2,14 @@
 // moves every ray by some steps, and those that have ended drop out of the next, so that few lanes idle.
 #pragma once
 
+#include "core/base/check.h"
 #include "core/ssrm/march_options.h"
 #include "core/ssrm/screen_rays.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -65,6 +67,7 @@ struct WaveJob {
         step_budget(options.step_budget < kUnlimited ? static_cast<int32_t>(options.step_budget) : 0),
         ascent(options.ascent),
         correct(options.correct) {
+    HYBRAY_CHECK_LE(static_cast<size_t>(levels), kMostLevels);
     for (int level = 0; level < levels; ++level) {
       first_texel[static_cast<size_t>(level)] = static_cast<int32_t>(pyramid.first_texel(level));
       row[static_cast<size_t>(level)] = pyramid.row_length(level);
@@ -75,5 +78,10 @@ struct WaveJob {
 // Writes what became of the rays of `ended`, each at its own place; returns how many of them are kCleared,
 // whose results are still to come. `width` of the screen.
 size_t write_results(const ScreenRays& rays, int width, const MarchWave::Ended& ended, MarchResults& results);
+
+// Marches the rays of `job` in blocks, all threads: `block` leaves those from begin on and before end in
+// wave.ended, writes their results, and returns the samples read, whose sum this returns.
+uint64_t march_in_blocks(const WaveJob& job,
+                         const std::function<uint64_t(size_t begin, size_t end, MarchWave& wave)>& block);
 
 }  // namespace hybray::ssrm

@@ -4,7 +4,6 @@
 #include "harness/experiments/columns.h"
 #include "harness/experiments/parameters.h"
 #include "harness/experiments/ray_frame.h"
-#include "harness/experiments/resolution.h"
 
 #include <bit>
 #include <cmath>
@@ -14,8 +13,7 @@ namespace hybray {
 namespace {
 
 double rays_of(const Point& point) {
-  const auto size = *parse_resolution(point.text("resolution"));
-  const double pixels = static_cast<double>(size.width) * size.height;
+  const double pixels = pixels_of(point);
   return pixels * static_cast<double>(point.text("ray_kind") == "mirror" ? point.integer("mirror_depth")
                                                                          : point.integer("rays_per_pixel"));
 }
@@ -47,7 +45,7 @@ std::vector<Parameter> ray_parameters() {
           choice(
               "march_code", "lanes", {"scalar", "lanes"},
               "Marcher as scalar code, or many rays at a time in vector lanes: the same results, less time."),
-          number("footprint_factor", "", 1.0, 1e-3, 1e3, "k of the tolerance that makes a HIT right."),
+          footprint_factor_parameter(),
       });
   return p;
 }
@@ -91,13 +89,7 @@ void add_ray_columns(std::vector<Column>& c) {
     precision.name = "precision_bounce_" + n, precision.text = "right HITs / HITs of bounce " + n;
     add(c, {follows_rays(rays), alpha, precision});
   }
-  c.push_back({"steps_per_ray",
-               "1",
-               ColumnKind::metric,
-               lower,
-               "depth samples read / rays",
-               {},
-               {0.0, 10 * kMovedRays}});
+  c.push_back(samples_read("steps_per_ray", lower, "depth samples read / rays"));
 }
 
 void add_ray_cells(Row& row, const Point& point, const SsrmSetup& setup, const RayFrame& f) {
@@ -147,14 +139,12 @@ double ray_memory_bytes(const Point& point) {
   // A ray with its screen ray, length, verdicts (twice while it is timed), truth, answer and place in the
   // lists; a pixel of the geometry buffers and the pyramid; the largest known scene with both acceleration
   // structures.
-  constexpr double kRay = 110.0, kPixel = 40.0, kScene = 0.7e9;
-  const auto size = *parse_resolution(point.text("resolution"));
-  return kScene + kPixel * size.width * size.height + kRay * rays_of(point);
+  constexpr double kRay = 110.0, kPixel = 40.0;
+  return kSceneBytes + kPixel * pixels_of(point) + kRay * rays_of(point);
 }
 
 double ray_frame_seconds(const Point& point) {
-  const auto size = *parse_resolution(point.text("resolution"));
-  return 0.2e-6 * size.width * size.height + 0.7e-6 * rays_of(point);
+  return 0.2e-6 * pixels_of(point) + 0.7e-6 * rays_of(point);
 }
 
 double ray_round_seconds(const Point& point, const SceneFacts& scene, double passes) {

@@ -4,7 +4,6 @@
 #include "core/ssrm/hit_checks.h"
 #include "harness/experiments/columns.h"
 #include "harness/experiments/parameters.h"
-#include "harness/experiments/resolution.h"
 #include "harness/experiments/ssrm_frame.h"
 
 #include <cmath>
@@ -35,13 +34,10 @@ std::vector<Parameter> parameters() {
                  "confidence reaches 0 (hiz)."),
           number("stride", "px", 1.0, 1.0, 1024.0, "Pixels between the samples of dda."),
           number("confidence", "", 0.1, 0.0, 1.0, "Least confidence of a HIT of hiz."),
-          integer("step_budget", "", 0, 0, 1e9,
-                  "Depth samples that one ray may read in paper, dda or hiz; 0: no limit."),
-          number("footprint_factor", "", 1.0, 1e-3, 1e3, "k of the tolerance that makes a HIT right."),
+          step_budget_parameter("Depth samples that one ray may read in paper, dda or hiz; 0: no limit."),
+          footprint_factor_parameter(),
           repeats(),
-          flag("picture", false,
-               "Write the verdict picture: grey = resolved, blue = unknown, light blue = miss, red = false "
-               "hit, black = background."),
+          verdict_picture_parameter(),
       });
   return p;
 }
@@ -67,20 +63,9 @@ std::vector<Column> columns() {
           share_of_rays("rejected_right_fraction", lower, "right HITs that the check rejected / rays"),
           share_of_rays("precision_own_depth", higher,
                         "precision where a HIT lies at the marcher's own depth instead of the pixel's plane"),
-          {"steps_per_ray",
-           "1",
-           ColumnKind::metric,
-           lower,
-           "depth samples read in the march / rays",
-           {},
-           {0.0, 10 * kMovedRays}},
-          {"check_steps_per_hit",
-           "1",
-           ColumnKind::metric,
-           lower,
-           "samples of the neighbourhood pyramid read by the check / HITs before it",
-           {},
-           {0.0, 10 * kMovedRays}},
+          samples_read("steps_per_ray", lower, "depth samples read in the march / rays"),
+          samples_read("check_steps_per_hit", lower,
+                       "samples of the neighbourhood pyramid read by the check / HITs before it"),
       });
   add_time(c, "march", "march of all rays; dda, hiz and level0 are scalar code, paper is in vector lanes");
   add_time(c, "neighbourhood", "neighbourhood pyramid of the check");
@@ -94,26 +79,25 @@ std::vector<Column> columns() {
 
 double memory_bytes(const Point& point) {
   constexpr double kPixel = 190.0;  // as `ssrm`, with another pyramid and normals, one list of hits fewer
-  constexpr double kScene = 0.7e9;
-  const auto size = *parse_resolution(point.text("resolution"));
-  return kScene + kPixel * size.width * size.height;
+  return kSceneBytes + kPixel * pixels_of(point);
 }
 
 // As in `ssrm`; a point of the same view as the one before it shares its frame and truth, which is not known
 // here.
 double cost_seconds(const Point& point, const SceneFacts& scene) {
-  const auto size = *parse_resolution(point.text("resolution"));
-  const double pixels = static_cast<double>(size.width) * size.height;
+  const double pixels = pixels_of(point);
   const double frame = (0.3e-6 + 0.02e-6 * std::log2(static_cast<double>(scene.triangles) + 2.0)) * pixels;
   const std::string& marcher = point.text("marcher");
-  const double per_pixel = marcher == "level0" ? 0.7e-9 * size.width : marcher == "dda" ? 0.5e-6 : 0.15e-6;
+  const double per_pixel = marcher == "level0" ? 0.7e-9 * width_of(point)
+                           : marcher == "dda"  ? 0.5e-6
+                                               : 0.15e-6;
   const double check = point.text("check") == "none" ? 0.0 : 0.2e-6;
   return frame +
          (static_cast<double>(point.integer("repeats")) + 2.0) * (per_pixel + check + 0.04e-6) * pixels;
 }
 
 std::vector<SharedCost> shared_costs(const Point& point, const SceneFacts& scene) {
-  return {{"scene " + point.text("scene"), 0.1 + 1.2e-6 * static_cast<double>(scene.triangles)}};
+  return {scene_cost(point, scene)};
 }
 
 }  // namespace

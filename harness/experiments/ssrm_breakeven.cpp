@@ -106,8 +106,7 @@ double cost_seconds(const Point& point, const SceneFacts& scene) {
 std::vector<SharedCost> shared_costs(const Point& point, const SceneFacts& scene) {
   std::string frame = "ray frame";
   for (const Parameter& p : ray_parameters()) frame += ' ' + to_text(point.parameters.at(p.name));
-  return {{"scene " + point.text("scene"), 0.1 + 1.2e-6 * static_cast<double>(scene.triangles)},
-          {frame, ray_frame_seconds(point)}};
+  return {scene_cost(point, scene), {frame, ray_frame_seconds(point)}};
 }
 
 }  // namespace

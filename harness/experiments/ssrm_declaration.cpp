@@ -1,7 +1,6 @@
 // What `ssrm` can be asked and what it answers. Exact definitions of the metrics: docs/metrics.md.
 #include "harness/experiments/columns.h"
 #include "harness/experiments/parameters.h"
-#include "harness/experiments/resolution.h"
 #include "harness/experiments/ssrm.h"
 #include "harness/experiments/ssrm_frame.h"
 
@@ -28,15 +27,12 @@ std::vector<Parameter> parameters() {
               "march_code", "scalar", {"scalar", "lanes"},
               "Marcher as scalar code, or many rays at a time in vector lanes: the same results, less time."),
           integer("mirror_depth", "", 1, 1, 1, "Number of mirror reflections along a path."),
-          integer("step_budget", "", 0, 0, 1e9, "Depth samples that one ray may read; 0: no limit."),
-          number("footprint_factor", "", 1.0, 1e-3, 1e3, "k of the tolerance that makes a HIT right."),
+          step_budget_parameter("Depth samples that one ray may read; 0: no limit."),
+          footprint_factor_parameter(),
           integer("level0_every", "", 1, 0, 1e6,
                   "March every so-manieth ray also with the exhaustive double-precision marcher; 0: none."),
           repeats(),
-          flag("picture", false,
-               "Write the verdict picture: grey = resolved, blue = unknown, light blue = miss, red = false "
-               "hit, "
-               "black = background."),
+          verdict_picture_parameter(),
       });
   return p;
 }
@@ -63,14 +59,7 @@ std::vector<Column> columns() {
                  "rays labelled differently by the exhaustive double-precision marcher / rays compared"),
              {"level0_margin_ulp", "ulp", ColumnKind::metric, lower,
               "widest decision margin of a ray labelled differently, in float ulps", Comparison::none},
-             // Moved rays that read ten times the mean.
-             {"steps_per_ray",
-              "1",
-              ColumnKind::metric,
-              lower,
-              "depth samples read / rays",
-              {},
-              {0.0, 10 * kMovedRays}},
+             samples_read("steps_per_ray", lower, "depth samples read / rays"),
          });
   add_time(c, "gbuffer", "depth, derivatives and normals of the main view");
   add_time(c, "pyramid", "depth pyramid that the marcher needs");
@@ -79,10 +68,7 @@ std::vector<Column> columns() {
   add_time(c, "compaction", "list of the unresolved rays");
   add_time(c, "t_ss", "SSRM on all rays");
   add_time(c, "t_hw", "general tracer on all rays in its fastest mode");
-  c.push_back(finding("hw_mode", "fastest mode of the general tracer for all rays, by measurement",
-                      Comparison::none));
-  c.push_back(finding("hw_mode_unresolved", "fastest mode for the unresolved rays, by measurement",
-                      Comparison::none));
+  add_trace_mode_columns(c);
   add_time(c, "t_hw_single", "general tracer on all rays, one ray at a time");
   add_time(c, "t_unresolved", "general tracer on the unresolved rays in their fastest mode");
   add_time(c, "t_hybrid", "measured hybrid: pyramid, march, compaction, trace, write-back");
@@ -109,17 +95,13 @@ double memory_bytes(const Point& point) {
   // Bytes a pixel where it is most, while times are taken: 141 as measured, and some in reserve. Geometry
   // buffers and rays are there twice, with four lists of hits.
   constexpr double kPixel = 165.0;
-  constexpr double kScene =
-      0.7e9;  // the largest of the known scenes (0.64e9) with both acceleration structures
-  const auto size = *parse_resolution(point.text("resolution"));
-  return kScene + kPixel * size.width * size.height;
+  return kSceneBytes + kPixel * pixels_of(point);
 }
 
 // Measured as processor time on two cores; good to a factor of two for the sum over a config, while a single
 // point of it may be further off.
 double cost_seconds(const Point& point, const SceneFacts& scene) {
-  const auto size = *parse_resolution(point.text("resolution"));
-  const double pixels = static_cast<double>(size.width) * size.height;
+  const double pixels = pixels_of(point);
   // A round traces all rays twice and the unresolved ones three times, for which the tracer needs the longer
   // the deeper its tree is, and marches all of them three times.
   const double depth = std::log2(static_cast<double>(scene.triangles) + 2.0);
@@ -128,13 +110,12 @@ double cost_seconds(const Point& point, const SceneFacts& scene) {
   const double modes = 0.04 * depth;  // finding the fastest ones takes a fixed number of rays
   // The exhaustive marcher visits the pixels along a ray, a number that grows with the width.
   const auto stride = static_cast<double>(point.integer("level0_every"));
-  const double level0 = stride > 0.0 ? 0.7e-9 * pixels * size.width / stride : 0.0;
+  const double level0 = stride > 0.0 ? 0.7e-9 * pixels * width_of(point) / stride : 0.0;
   return verdicts + level0 + modes + round * (static_cast<double>(point.integer("repeats")) + 1.0);
 }
 
-// The scene, loaded twice (once for its hash), and both of its acceleration structures.
 std::vector<SharedCost> shared_costs(const Point& point, const SceneFacts& scene) {
-  return {{"scene " + point.text("scene"), 0.1 + 1.2e-6 * static_cast<double>(scene.triangles)}};
+  return {scene_cost(point, scene)};
 }
 
 }  // namespace ssrm_parts

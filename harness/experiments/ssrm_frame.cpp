@@ -96,8 +96,47 @@ Column share_of_rays(const char* name, Better better, const char* text) {
   return {name, "1", ColumnKind::metric, better, text, {}, {kMovedRays, 0.0}};
 }
 
+Column samples_read(const char* name, Better better, const char* text) {
+  return {name, "1", ColumnKind::metric, better, text, {}, {0.0, 10 * kMovedRays}};
+}
+
 Column follows_rays(Column column) {
   return column::within({2.0, kMovedRays}, std::move(column));
+}
+
+Parameter step_budget_parameter(const char* text) {
+  return parameter::integer("step_budget", "", 0, 0, 1e9, text);
+}
+
+Parameter footprint_factor_parameter() {
+  return parameter::number("footprint_factor", "", 1.0, 1e-3, 1e3,
+                           "k of the tolerance that makes a HIT right.");
+}
+
+Parameter verdict_picture_parameter() {
+  return parameter::flag("picture", false,
+                         "Write the verdict picture: grey = resolved, blue = unknown, light blue = miss, "
+                         "red = false hit, black = background.");
+}
+
+void add_trace_mode_columns(std::vector<Column>& columns) {
+  columns.push_back(column::finding(
+      "hw_mode", "fastest mode of the general tracer for all rays, by measurement", Comparison::none));
+  columns.push_back(column::finding(
+      "hw_mode_unresolved", "fastest mode for the unresolved rays, by measurement", Comparison::none));
+}
+
+double width_of(const Point& point) {
+  return parse_resolution(point.text("resolution"))->width;
+}
+
+double pixels_of(const Point& point) {
+  const Resolution size = *parse_resolution(point.text("resolution"));
+  return static_cast<double>(size.width) * size.height;
+}
+
+SharedCost scene_cost(const Point& point, const SceneFacts& scene) {
+  return {"scene " + point.text("scene"), 0.1 + 1.2e-6 * static_cast<double>(scene.triangles)};
 }
 
 void add_view_columns(std::vector<Column>& columns) {

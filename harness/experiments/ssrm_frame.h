@@ -62,6 +62,22 @@ const JudgedFrame& shared_frame(const Point& point, Workspace& workspace, unsign
 // scene, camera, resolution, near, far, depth_convention, derivatives.
 std::vector<Parameter> ssrm_view_parameters();
 
+// Further ones that several experiments have.
+Parameter step_budget_parameter(const char* text);
+Parameter footprint_factor_parameter();
+Parameter verdict_picture_parameter();
+
+// hw_mode and hw_mode_unresolved.
+void add_trace_mode_columns(std::vector<Column>& columns);
+
+// Bytes of the largest of the known scenes with both acceleration structures (0.64e9 as measured).
+constexpr double kSceneBytes = 0.7e9;
+double pixels_of(const Point& point);
+double width_of(const Point& point);
+// The scene, loaded twice (once for its hash), and both of its acceleration structures: the same for all
+// points of a scene.
+SharedCost scene_cost(const Point& point, const SceneFacts& scene);
+
 // The keys of those parameters, and triangles, rays, skipped work and threads, which add_view_cells fills.
 void add_view_columns(std::vector<Column>& columns);
 void add_view_cells(Row& row, const Point& point, const SsrmSetup& setup, const SsrmFrame& frame);
@@ -75,6 +91,8 @@ void add_verdict_cells(Row& row, const metrics::VerdictTable& table);
 // 100,000. A share of rays, and what follows from their number, are compared within that.
 constexpr double kMovedRays = 2e-4;
 Column share_of_rays(const char* name, Better better, const char* text);
+// Samples read by, or for, each ray: a moved ray may read ten times the mean.
+Column samples_read(const char* name, Better better, const char* text);
 Column follows_rays(Column column);
 
 }  // namespace hybray

@@ -37,10 +37,7 @@ std::vector<Parameter> parameters() {
               "Rays behind the first layer skip cells by the far bound of the first layer and the near bound "
               "of the others: the same results."),
           repeats(),
-          flag("picture", false,
-               "Write the verdict picture: grey = resolved, blue = unknown, light blue = miss, red = false "
-               "hit, "
-               "black = background."),
+          verdict_picture_parameter(),
       });
   return p;
 }
@@ -72,10 +69,8 @@ std::vector<Column> columns() {
                            "right HITs on layers beyond the first / all HITs on them"),
              share_of_rays("band_hit_fraction", none, "HITs in the guard band / HITs"),
              share_of_rays("band_precision", higher, "right HITs in the guard band / all HITs in it"),
-             within({0.0, 10 * kMovedRays},
-                    {"steps_per_ray", "1", ColumnKind::metric, lower, "depths read, of every layer / rays"}),
-             within({0.0, 10 * kMovedRays},
-                    {"single_steps_per_ray", "1", ColumnKind::metric, none, "the same of marcher `paper`"}),
+             samples_read("steps_per_ray", lower, "depths read, of every layer / rays"),
+             samples_read("single_steps_per_ray", none, "the same of marcher `paper`"),
          });
   add_time(c, "gbuffer", "depth, derivatives and normals of the main view; outside the hybrid's time");
   add_time(c, "band", "first layer of the guard band");
@@ -116,22 +111,20 @@ double layer_pixels(const Point& point) {
 
 double memory_bytes(const Point& point) {
   // The shared frame with truth as in `ssrm`; 16 bytes a pixel of each layer and its share of the pyramids.
-  constexpr double kPixel = 190.0, kLayerPixel = 24.0, kScene = 0.7e9;
-  const auto size = *parse_resolution(point.text("resolution"));
-  return kScene + kPixel * size.width * size.height + kLayerPixel * layer_pixels(point);
+  constexpr double kPixel = 190.0, kLayerPixel = 24.0;
+  return kSceneBytes + kPixel * pixels_of(point) + kLayerPixel * layer_pixels(point);
 }
 
 // As measured on two cores, good to a factor of two.
 double cost_seconds(const Point& point, const SceneFacts& scene) {
-  const auto size = *parse_resolution(point.text("resolution"));
-  const double pixels = static_cast<double>(size.width) * size.height;
+  const double pixels = pixels_of(point);
   const double depth = std::log2(static_cast<double>(scene.triangles) + 2.0);
   const double round = 0.06e-6 * depth * pixels + 0.5e-6 * pixels + 0.02e-6 * depth * layer_pixels(point);
   return 2e-6 * pixels + 0.08 * depth + round * (static_cast<double>(point.integer("repeats")) + 1.0);
 }
 
 std::vector<SharedCost> shared_costs(const Point& point, const SceneFacts& scene) {
-  return {{"scene " + point.text("scene"), 0.1 + 1.2e-6 * static_cast<double>(scene.triangles)}};
+  return {scene_cost(point, scene)};
 }
 
 }  // namespace

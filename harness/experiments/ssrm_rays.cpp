@@ -100,7 +100,7 @@ double cost_seconds(const Point& point, const SceneFacts& scene) {
 }
 
 std::vector<SharedCost> shared_costs(const Point& point, const SceneFacts& scene) {
-  return {{"scene " + point.text("scene"), 0.1 + 1.2e-6 * static_cast<double>(scene.triangles)}};
+  return {scene_cost(point, scene)};
 }
 
 }  // namespace

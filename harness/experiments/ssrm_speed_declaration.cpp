@@ -1,7 +1,6 @@
 // What `ssrm_speed` can be asked and what it answers. Exact definitions: docs/hybrid.md.
 #include "harness/experiments/columns.h"
 #include "harness/experiments/parameters.h"
-#include "harness/experiments/resolution.h"
 #include "harness/experiments/ssrm_frame.h"
 #include "harness/experiments/ssrm_speed.h"
 
@@ -27,7 +26,7 @@ std::vector<Parameter> parameters() {
                  "T_SS / T_HW of a ray against the fastest mode: the chance from which on it is marched."),
           number("march_cost_single", "", 0.3, 0.0, 1.0, "The same against single rays."),
           number("path_step", "m", 0.05, 0.0, 1e6,
-                 "How far to the right the frame before was taken, for predictor history."),
+                 "How far to the left the frame before was taken, for predictor history."),
           flag("certified_misses", true,
                "Rays that pass in front of all conservative depth are not traced where the remaining "
                "segment is exact."),
@@ -65,30 +64,16 @@ std::vector<Column> columns() {
                         "start distance / true distance, mean over the unresolved rays that hit something"),
           share_of_rays("segment_exact_proved_fraction", higher, "the same of the exact segment"),
           follows_rays(counted("conservative_pixels", "pixels touched by triangles, summed over these")),
-          {"steps_per_ray",
-           "1",
-           ColumnKind::metric,
-           lower,
-           "depth samples read / rays",
-           {},
-           {0.0, 10 * kMovedRays}},
-          {"segment_exact_steps_per_ray",
-           "1",
-           ColumnKind::metric,
-           lower,
-           "depth samples read for the exact segments / rays",
-           {},
-           {0.0, 10 * kMovedRays}},
+          samples_read("steps_per_ray", lower, "depth samples read / rays"),
+          samples_read("segment_exact_steps_per_ray", lower,
+                       "depth samples read for the exact segments / rays"),
       });
   add_time(c, "pyramid", "depth pyramid");
   add_time(c, "conservative", "conservative depth and its pyramid");
   add_time(c, "t_ss_scalar", "march of all rays, scalar code");
   add_time(c, "t_ss", "march of all rays, vector lanes");
   add_time(c, "t_hw", "general tracer on all rays in its fastest mode");
-  c.push_back(finding("hw_mode", "fastest mode of the general tracer for all rays, by measurement",
-                      Comparison::none));
-  c.push_back(finding("hw_mode_unresolved", "fastest mode for the unresolved rays, by measurement",
-                      Comparison::none));
+  add_trace_mode_columns(c);
   add_time(c, "t_hw_single", "general tracer on all rays, one ray at a time");
   for (const auto& [end, with] : {std::pair("", "fastest mode"), std::pair("_single", "single rays")}) {
     const auto time = [&](const char* stem, const char* text) {
@@ -133,21 +118,18 @@ std::vector<Column> columns() {
 
 double memory_bytes(const Point& point) {
   constexpr double kPixel = 300.0;  // buffers, rays, hits and lists of every design
-  constexpr double kScene = 0.7e9;  // the largest of the known scenes with both acceleration structures
-  const auto size = *parse_resolution(point.text("resolution"));
-  return kScene + kPixel * size.width * size.height;
+  return kSceneBytes + kPixel * pixels_of(point);
 }
 
 double cost_seconds(const Point& point, const SceneFacts& scene) {
-  const auto size = *parse_resolution(point.text("resolution"));
-  const double pixels = static_cast<double>(size.width) * size.height;
+  const double pixels = pixels_of(point);
   const double triangles = static_cast<double>(scene.triangles), depth = std::log2(triangles + 2.0);
   const double round = 0.25e-6 * depth * pixels + 4e-6 * triangles;
   return 1e-6 * pixels + round * (static_cast<double>(point.integer("repeats")) + 1.0);
 }
 
 std::vector<SharedCost> shared_costs(const Point& point, const SceneFacts& scene) {
-  return {{"scene " + point.text("scene"), 0.1 + 1.2e-6 * static_cast<double>(scene.triangles)}};
+  return {scene_cost(point, scene)};
 }
 
 }  // namespace
