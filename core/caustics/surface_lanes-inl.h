@@ -1,6 +1,6 @@
 // Surfaces that paths meet, in many lanes at once: their points, what they mirror and let through, and what
-// becomes of a path there. Per-target code: included inside HWY_BEFORE_NAMESPACE() again for every instruction
-// set, so there is no #pragma once.
+// becomes of a path there. Per-target code: included inside HWY_BEFORE_NAMESPACE() again for every
+// instruction set, so there is no #pragma once.
 #if defined(HYBRAY_SURFACE_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef HYBRAY_SURFACE_LANES_INL_H_
 #undef HYBRAY_SURFACE_LANES_INL_H_

@@ -27,17 +27,6 @@ double meets(const Scene& scene, uint32_t triangle, const dvec3& o, const dvec3&
   return glm::dot(e2, q) / det;
 }
 
-double claimed_distance(const LayeredView& view, const View& main, const RayStream& rays,
-                        const ScreenRays& screen_rays, size_t ray, ivec2 p, int layer) {
-  const auto r = screen_rays.get<double>(ray);
-  const PixelSpan span = pixel_span(view.first, r, p.x, p.y);
-  const PlaneGap gap = plane_gap(view.plane(layer, p.x, p.y), r, p.x, p.y);
-  const double l = gap.slope == 0.0
-                       ? span.enter
-                       : std::clamp(gap.crossing(), std::min(span.enter, span.leave), span.leave);
-  return distance_of(rays, ray, main, l);
-}
-
 }  // namespace
 
 uint64_t confirm_late_hits(const LayeredView& view, const View& main, const Scene& scene,
@@ -52,7 +41,8 @@ uint64_t confirm_late_hits(const LayeredView& view, const View& main, const Scen
       const int pixel = static_cast<int>(results.march.pixel[i]);
       const ivec2 p(pixel % width, pixel / width);
       const dvec3 o(rays.origin(i)), d(rays.direction(i));
-      const double claimed = claimed_distance(view, main, rays, screen_rays, i, p, results.layer[i]);
+      const double claimed = plane_distance(view.plane(results.layer[i], p.x, p.y), view.first, screen_rays,
+                                            rays, main, i, results.march.pixel[i]);
       const auto met = [&](ivec2 q, int layer) {
         const uint32_t primitive = view.primitive_of(
             layer, static_cast<size_t>(q.y) * static_cast<size_t>(width) + static_cast<size_t>(q.x));

@@ -44,6 +44,7 @@ struct LayeredFrame {
   ssrm::LayerOptions options;
   bool confirm;
   const Scene& scene;
+  const Tracer& layered;
   const RayStream& rays;
   GBuffer first;
   DepthLayers layers;
@@ -52,16 +53,18 @@ struct LayeredFrame {
   ssrm::ScreenRays screen_rays;
   std::vector<uint32_t> pixels;  // of the rays, in the larger view
 
-  LayeredFrame(const Point& point, const SsrmSetup& setup, const SsrmFrame& main)
+  LayeredFrame(const Point& point, const SsrmSetup& setup, const Tracer& layered_tracer,
+               const SsrmFrame& main)
       : margin(guard_band(setup.view.width(), point.number("guard_band")),
                guard_band(setup.view.height(), point.number("guard_band"))),
         min_max(point.boolean("min_max")),
         options{free_space(point.text("free_space")), point.boolean("march_on")},
         confirm(point.boolean("confirm")),
         scene(setup.scene),
+        layered(layered_tracer),
         rays(main.rays()),
         first(first_layer(setup, march_buffers(main.gbuffer), margin)),
-        layers(make_depth_layers(setup.robust, first, static_cast<int>(point.integer("layers")))),
+        layers(make_depth_layers(layered, first, static_cast<int>(point.integer("layers")))),
         pyramid(first.view.width(), first.view.height()),
         screen_rays(ssrm::project_rays(main.rays(), first.view, setup.scene.bounds)),
         pixels(main.rays().pixel) {
@@ -160,7 +163,7 @@ void add_times(Row& row, const SsrmSetup& setup, const SsrmFrame& main, LayeredF
     if (banded) frame.first = first_layer(setup, inner, frame.margin);
   };
   const auto layers = [&] {
-    frame.layers = make_depth_layers(setup.robust, frame.first, frame.layers.count());
+    frame.layers = make_depth_layers(frame.layered, frame.first, frame.layers.count());
   };
   const auto hybrid = [&] {
     frame.build_pyramid();
@@ -217,9 +220,9 @@ void add_times(Row& row, const SsrmSetup& setup, const SsrmFrame& main, LayeredF
 }
 
 // What the layers see inside the band, in place of what the main view sees.
-truth::RayTruth layered_truth(const SsrmSetup& setup, const JudgedFrame& main, const LayeredFrame& frame) {
+truth::RayTruth layered_truth(const JudgedFrame& main, const LayeredFrame& frame) {
   truth::RayTruth truth = main.truth;
-  const std::vector<uint8_t> layer = truth::layers_of_hits(setup.robust, main.frame.rays(), truth.hits,
+  const std::vector<uint8_t> layer = truth::layers_of_hits(frame.layered, main.frame.rays(), truth.hits,
                                                            frame.first.view, frame.layers.count());
   for (size_t i = 0; i < layer.size(); ++i) truth.visible[i] = layer[i] != truth::kNotSeen;
   return truth;
@@ -231,7 +234,7 @@ Row run(const Point& point, Workspace& workspace) {
   const SsrmSetup setup(point, workspace);
   const JudgedFrame& main = shared_frame(point, workspace);
   const RayStream& rays = main.frame.rays();
-  LayeredFrame frame(point, setup, main.frame);
+  LayeredFrame frame(point, setup, workspace.layered_tracer(point.text("scene")), main.frame);
   Row row;
   add_view_cells(row, point, setup, main.frame);
   row["layers"] = point.integer("layers");
@@ -251,7 +254,7 @@ Row run(const Point& point, Workspace& workspace) {
   std::vector<metrics::HitClass> classes;
   const metrics::VerdictTable table = metrics::judge(
       results.march, [&](size_t i) { return frame.surface(results, i); }, frame.depth(), frame.screen_rays,
-      rays, layered_truth(setup, main, frame), frame.first.view, setup.scene, {}, &classes);
+      rays, layered_truth(main, frame), frame.first.view, setup.scene, {}, &classes);
   add_verdict_cells(row, table);
   add_part_cells(row, frame, results, classes, table.hits());
   if (point.boolean("picture"))

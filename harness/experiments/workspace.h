@@ -45,8 +45,9 @@ class Workspace {
   // The scene of that name; throws what load_scene throws. References stay good until another scene is asked
   // for.
   const Scene& scene(const std::string& name);
-  const Tracer& tracer(const std::string& scene_name);         // the fast one, which is timed
-  const Tracer& robust_tracer(const std::string& scene_name);  // for buffers and for truth
+  const Tracer& tracer(const std::string& scene_name);          // the fast one, which is timed
+  const Tracer& robust_tracer(const std::string& scene_name);   // for buffers and for truth
+  const Tracer& layered_tracer(const std::string& scene_name);  // robust, for depth layers beyond the first
 
   // What `make` returns, made once for each key and scene and shared by the points that follow: prepared
   // scenes, references. `key` must say all that the result depends on besides the scene. Good until another
@@ -89,12 +90,13 @@ class Workspace {
   const ReferenceCounts& references() const { return references_; }
 
  private:
-  const Tracer& built(std::unique_ptr<Tracer>& tracer, const std::string& scene_name, bool robust);
+  const Tracer& built(std::unique_ptr<Tracer>& tracer, const std::string& scene_name,
+                      const Tracer::Config& config);
 
   Settings settings_;
   std::string scene_name_;  // of scene_
   std::unique_ptr<Scene> scene_;
-  std::unique_ptr<Tracer> tracer_, robust_tracer_;
+  std::unique_ptr<Tracer> tracer_, robust_tracer_, layered_tracer_;
   std::map<std::string, std::shared_ptr<void>> shared_;                          // by key
   std::map<std::string, std::pair<std::string, std::shared_ptr<void>>> newest_;  // key and result by kind
   uint64_t reused_ = 0;

@@ -1,6 +1,6 @@
-// Every kind of emission has the same expectation, held against integrals over texels and over the whole light.
+// Every kind of emission has the same expectation, held against integrals over texels and over the whole
+// light.
 #include "core/caustics/emission.h"
-
 #include "core/optics/specular_step.h"
 #include "tests/core/caustics/emission_lights.h"
 
