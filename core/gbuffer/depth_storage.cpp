@@ -39,9 +39,9 @@ float stored_depth(double device_depth, DepthConvention convention, const DepthS
   const double steps = steps_of(storage.format);
   if (steps == 0.0) return rounded(device_depth, convention, storage.rounding);
   const double scaled = device_depth * steps;
-  const double step = storage.rounding == DepthRounding::nearest        ? std::nearbyint(scaled)
-                      : convention == DepthConvention::standard ? std::floor(scaled)
-                                                                        : std::ceil(scaled);
+  const double step = storage.rounding == DepthRounding::nearest ? std::nearbyint(scaled)
+                      : convention == DepthConvention::standard  ? std::floor(scaled)
+                                                                 : std::ceil(scaled);
   return rounded(step / steps, convention, storage.rounding);
 }
 

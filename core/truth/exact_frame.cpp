@@ -132,7 +132,8 @@ double ExactFrame::gap(const ssrm::ScreenRay<double>& ray, int x, int y, double 
 
 double ExactFrame::slack(int x, int y) const {
   const ssrm::PixelPlane& p = planes_(x, y);
-  return std::isinf(p.center) ? 0.0 : kSlack * (std::abs(p.center) + std::abs(p.slope_x) + std::abs(p.slope_y));
+  return std::isinf(p.center) ? 0.0
+                              : kSlack * (std::abs(p.center) + std::abs(p.slope_x) + std::abs(p.slope_y));
 }
 
 bool ExactFrame::passes(const ssrm::ScreenRay<double>& ray, int x, int y) const {

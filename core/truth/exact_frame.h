@@ -35,7 +35,8 @@ class ExactFrame {
   };
   std::optional<Ray> mirror_ray(uint32_t pixel) const;
 
-  // The verdict of a walk through every pixel, by the rules of `marcher` (docs/metrics.md, docs/algorithms.md).
+  // The verdict of a walk through every pixel, by the rules of `marcher` (docs/metrics.md,
+  // docs/algorithms.md).
   ssrm::Correction march(const Ray& ray, ssrm::Marcher marcher) const;
 
   // Distance, metres, at which a ray meets the plane of a pixel that it goes through.

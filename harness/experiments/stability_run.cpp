@@ -37,9 +37,8 @@ struct PlacedScene {
 
 const StableRays& stable_rays(const Point& point, Workspace& workspace, const Tracer& robust,
                               const View& view) {
-  const std::string key = key_of(
-      point, {"camera", "incidence", "resolution", "near", "far_near_ratio", "far_plane", "jitter_x",
-              "jitter_y", "judged_rays"});
+  const std::string key = key_of(point, {"camera", "incidence", "resolution", "near", "far_near_ratio",
+                                         "far_plane", "jitter_x", "jitter_y", "judged_rays"});
   return workspace.newest<StableRays>(point.text("scene"), "stable rays", key, [&] {
     return std::make_shared<StableRays>(robust, view, static_cast<size_t>(point.integer("judged_rays")));
   });
@@ -109,8 +108,7 @@ void add_label_cells(Row& row, const Case& c) {
     flipped += !usable || c.results.verdict[i] != exact.verdict || c.results.pixel[i] != exact.pixel;
     hit_flipped += hit != exact_hit;
     hits += hit, exact_hits += exact_hit;
-    const bool truly_false =
-        exact_hit && c.false_hit(i, truth.primitive()[exact.pixel], c.exact_distance(i));
+    const bool truly_false = exact_hit && c.false_hit(i, truth.primitive()[exact.pixel], c.exact_distance(i));
     exact_false += truly_false;
     if (!hit) continue;
     const uint32_t primitive = c.frame.gbuffer.primitive[c.results.pixel[i]];
@@ -204,8 +202,8 @@ Value flicker(const Case& c, const Tracer& robust, const StableView& stable, ssr
 }
 
 void add_keys(Row& row, const Point& point, const View& view, const Scene& scene) {
-  for (const char* name : {"scene", "camera", "marcher", "depth_format", "depth_rounding",
-                           "depth_convention", "far_plane", "origin", "ray_offset", "tracer", "derivatives"})
+  for (const char* name : {"scene", "camera", "marcher", "depth_format", "depth_rounding", "depth_convention",
+                           "far_plane", "origin", "ray_offset", "tracer", "derivatives"})
     row[name] = point.text(name);
   row["width"] = int64_t{view.width()};
   row["height"] = int64_t{view.height()};
@@ -239,7 +237,8 @@ Row run(const Point& point, Workspace& workspace) {
   const StableRays& stable = stable_rays(point, workspace, robust, view.view);
   const Placement placement = placement_of(point, view.camera);
   const PlacedScene& there = placed(point, workspace, placement);
-  const ssrm::Marcher marcher = point.text("marcher") == "paper" ? ssrm::Marcher::paper : ssrm::Marcher::plane;
+  const ssrm::Marcher marcher =
+      point.text("marcher") == "paper" ? ssrm::Marcher::paper : ssrm::Marcher::plane;
 
   const DisturbedFrame frame(*there.robust, placed_view(view, placement, there.scene), storage_of(point),
                              point.text("derivatives") == "difference", stable, offset_of(point));

@@ -42,7 +42,8 @@ View::Settings settings_of(const Point& point, const Camera& camera, const Scene
 Camera at_incidence(const Tracer& robust, const Camera& camera, double degrees) {
   const dvec3 eye(camera.eye), axis = glm::normalize(dvec3(camera.target) - eye);
   const Hit hit = robust.intersect(camera.eye, vec3(axis));
-  if (!hit.valid()) throw InputError("camera " + camera.name, "its axis meets nothing, so it has no incidence");
+  if (!hit.valid())
+    throw InputError("camera " + camera.name, "its axis meets nothing, so it has no incidence");
   const dvec3 point = eye + static_cast<double>(hit.t) * axis;
   dvec3 normal = geometric_normal(robust.scene(), hit.primitive, point);
   if (glm::dot(normal, axis) > 0.0) normal = -normal;

@@ -31,7 +31,8 @@ TEST(ExactFrame, FindsTheWallInTheFloorWhereGeometrySaysItIs) {
     int hits = 0;
     for (uint32_t pixel = 0; pixel < frame.primitive().size(); ++pixel) {
       if (frame.primitive()[pixel] > 1) continue;  // not the floor
-      const dvec3 d = view.ray_direction(static_cast<int>(pixel) % 160 + 0.5, static_cast<int>(pixel) / 160 + 0.5);
+      const dvec3 d =
+          view.ray_direction(static_cast<int>(pixel) % 160 + 0.5, static_cast<int>(pixel) / 160 + 0.5);
       const double w = 2.0 / -d.y;
       EXPECT_NEAR(frame.view_depth(pixel), w, 1e-12 * w);
       const dvec3 point = view.eye() + w * d, mirrored = glm::normalize(dvec3(d.x, -d.y, d.z));
@@ -44,8 +45,9 @@ TEST(ExactFrame, FindsTheWallInTheFloorWhereGeometrySaysItIs) {
       const dvec2 screen = view.project(struck);
       // A pixel across the wall's foot or top may show something else at its centre.
       const bool inside = screen.x > 0.0 && screen.x < 160.0 && screen.y > 0.0 && screen.y < 90.0;
-      const bool seen = inside && struck.y < 8.0 &&
-                        (frame.primitive()(static_cast<int>(screen.x), static_cast<int>(screen.y)) | 1u) == 3u;
+      const bool seen =
+          inside && struck.y < 8.0 &&
+          (frame.primitive()(static_cast<int>(screen.x), static_cast<int>(screen.y)) | 1u) == 3u;
       const ssrm::Correction c = frame.march(*ray, marcher);
       if (marcher == Marcher::plane) {
         EXPECT_EQ(c.verdict == Verdict::hit, seen) << pixel;
@@ -91,7 +93,8 @@ TEST(ExactFrame, DoesNotDependOnTheEncodingOfDepth) {
   const Tracer tracer(scene, {.robust = true});
   const View a(scene.cameras[0], {.width = 120, .height = 67}, scene.bounds);
   const View b(scene.cameras[0],
-               {.width = 120, .height = 67, .far = a.far(), .convention = DepthConvention::standard}, scene.bounds);
+               {.width = 120, .height = 67, .far = a.far(), .convention = DepthConvention::standard},
+               scene.bounds);
   const ExactFrame one = exact_frame(tracer, a), other = exact_frame(tracer, b);
   for (uint32_t pixel = 0; pixel < one.primitive().size(); ++pixel) {
     if (one.primitive()[pixel] == kNoPrimitive) continue;

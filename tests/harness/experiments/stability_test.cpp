@@ -70,16 +70,19 @@ TEST_F(StabilityTest, FixedPointDepthErrsByItsFormula) {
 
 TEST_F(StabilityTest, FarFromTheOriginOnlyCoordinatesRelativeToTheEyeHold) {
   const Row base = run({{"origin", std::string("camera")}});
-  const Row world = run({{"offset", 1e7}}), relative = run({{"offset", 1e7}, {"origin", std::string("camera")}});
+  const Row world = run({{"offset", 1e7}}),
+            relative = run({{"offset", 1e7}, {"origin", std::string("camera")}});
   EXPECT_GT(number(world, "labels_flipped_fraction"), 0.5);
-  for (const char* column : {"alpha", "labels_flipped_fraction", "depth_error_fraction", "trace_wrong_fraction"})
+  for (const char* column :
+       {"alpha", "labels_flipped_fraction", "depth_error_fraction", "trace_wrong_fraction"})
     EXPECT_EQ(number(relative, column), number(base, column)) << column;
   EXPECT_LT(number(relative, "labels_flipped_fraction"), 1e-3);
 }
 
 TEST_F(StabilityTest, APowerOfTwoInScaleChangesNothing) {
   const Row one = run({}), large = run({{"scene_scale", 0x1p20}}), small = run({{"scene_scale", 0x1p-17}});
-  for (const char* column : {"alpha", "labels_flipped_fraction", "depth_error_fraction", "direction_error_deg"}) {
+  for (const char* column :
+       {"alpha", "labels_flipped_fraction", "depth_error_fraction", "direction_error_deg"}) {
     EXPECT_EQ(number(one, column), number(large, column)) << column;
     EXPECT_EQ(number(one, column), number(small, column)) << column;
   }
