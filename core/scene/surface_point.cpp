@@ -1,5 +1,7 @@
 #include "core/scene/surface_point.h"
 
+#include "core/scene/curved_primitive.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -10,21 +12,21 @@ double largest(const dvec3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-SurfacePoint analytic_point(const AnalyticSurface& surface, uint32_t primitive, const dvec3& hit) {
+SurfacePoint curved_point(const Scene& scene, uint32_t primitive, const dvec3& hit) {
   SurfacePoint p;
   p.primitive = primitive;
-  p.position = moved_onto(surface, hit);
-  p.geometric_normal = outward_normal(surface, p.position);
+  p.position = moved_onto(scene, primitive, hit);
+  p.geometric_normal = outward_normal(scene, primitive, p.position);
   p.shading_normal = p.geometric_normal;
-  p.material = surface.material;
-  p.offset = kSurfaceOffset * std::max(largest(p.position), extent(surface));
+  p.material = scene.material_of(primitive);
+  p.offset = kSurfaceOffset * std::max(largest(p.position), extent(scene, primitive));
   return p;
 }
 
 }  // namespace
 
 SurfacePoint surface_point(const Scene& scene, uint32_t primitive, float u, float v, const dvec3& hit) {
-  if (scene.is_analytic(primitive)) return analytic_point(scene.analytic_surface(primitive), primitive, hit);
+  if (!scene.is_triangle(primitive)) return curved_point(scene, primitive, hit);
   const uvec3& tri = scene.triangles[primitive];
   const dvec3 a(scene.positions[tri.x]), b(scene.positions[tri.y]), c(scene.positions[tri.z]);
   const dvec3 ab = b - a, ac = c - a;
@@ -42,8 +44,8 @@ SurfacePoint surface_point(const Scene& scene, uint32_t primitive, float u, floa
 }
 
 dvec3 geometric_normal(const Scene& scene, uint32_t primitive, const dvec3& point) {
-  return scene.is_analytic(primitive) ? outward_normal(scene.analytic_surface(primitive), point)
-                                      : geometric_normal(scene, primitive);
+  return scene.is_triangle(primitive) ? geometric_normal(scene, primitive)
+                                      : outward_normal(scene, primitive, point);
 }
 
 }  // namespace hybray

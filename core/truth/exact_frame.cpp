@@ -74,9 +74,8 @@ std::optional<ExactFrame::Ray> ExactFrame::mirror_ray(uint32_t pixel) const {
   Ray ray;
   ray.pixel = pixel;
   ray.origin = view_.eye() + w * to_surface;
-  const bool analytic = scene_.is_analytic(primitive);
-  dvec3 ng = analytic ? geometric_normal(scene_, primitive, ray.origin) : geometric_normal(scene_, primitive);
-  dvec3 ns = analytic ? ng : shading_normal(scene_, primitive, ray.origin);
+  dvec3 ng = geometric_normal(scene_, primitive, ray.origin);
+  dvec3 ns = scene_.is_triangle(primitive) ? shading_normal(scene_, primitive, ray.origin) : ng;
   if (glm::dot(ng, incoming) > 0.0) ng = -ng, ns = -ns;
   ray.direction = mirrored(incoming, ns);
   if (glm::dot(incoming, ns) >= 0.0 || glm::dot(ray.direction, ng) <= 0.0)

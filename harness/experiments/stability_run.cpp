@@ -116,7 +116,7 @@ void add_label_cells(Row& row, const Case& c) {
     const bool wrong = c.false_hit(i, primitive, claimed);
     false_hits += wrong;
     further += wrong && !truly_false;
-    self += primitive == truth.primitive()[c.stable.rays[i].pixel] && !truth.scene().is_analytic(primitive);
+    self += primitive == truth.primitive()[c.stable.rays[i].pixel] && truth.scene().is_triangle(primitive);
     if (exact_hit && c.results.pixel[i] == exact.pixel)
       distance_errors.push_back(relative_error(claimed, c.exact_distance(i)));
   }
@@ -175,7 +175,7 @@ void add_trace_cells(Row& row, const Case& c, const Tracer& tracer) {
              (hit.valid() && std::abs(t - true_t) > kTraceTolerance * true_t + own_footprint);
     if (!hit.valid()) continue;
     self += hit.primitive == truth.primitive()[c.stable.rays[i].pixel] &&
-            !truth.scene().is_analytic(hit.primitive);
+            truth.scene().is_triangle(hit.primitive);
   }
   row["trace_wrong_fraction"] = share(wrong, c.stable.size());
   row["trace_self_hits"] = static_cast<int64_t>(self);

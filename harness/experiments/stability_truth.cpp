@@ -2,6 +2,7 @@
 
 #include "core/base/parallel.h"
 #include "core/gbuffer/facing_surface.h"
+#include "core/scene/curved_primitive.h"
 #include "core/scene/surface_point.h"
 
 #include <limits>
@@ -14,10 +15,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Distance, in double, to what the tracer found in float.
 double refined(const Scene& scene, const Hit& hit, const dvec3& origin, const dvec3& direction) {
-  if (scene.is_analytic(hit.primitive)) {
+  if (!scene.is_triangle(hit.primitive)) {
     const double found = hit.t;
-    return nearest_hit(scene.analytic_surface(hit.primitive), origin, direction, 0.999 * found, 1.001 * found)
-        .value_or(found);
+    return nearest_hit(scene, hit.primitive, origin, direction, 0.999 * found, 1.001 * found).value_or(found);
   }
   const dvec3 n = geometric_normal(scene, hit.primitive);
   const dvec3 a(scene.positions[scene.triangles[hit.primitive].x]);
