@@ -117,10 +117,13 @@ TEST_P(MarchLanes, RunsMarchTheirRaysAsTheFullMarchDoesAndTouchNoOther) {
     if (run % 3 != 1 || run + 1 == all.size()) some.push_back(run);
   }
   std::reverse(some.begin(), some.end());  // any order
+  std::vector<std::string> targets = lanes_targets();
+  targets.push_back("scalar");
   for (const RayChoice::Of of : {RayChoice::Of::runs, RayChoice::Of::rest_of_runs})
     for (const std::vector<uint32_t>& runs : {some, all, std::vector<uint32_t>{}})
-      for (const MarchCode code : {MarchCode::scalar, MarchCode::lanes}) {
-        options.code = code;
+      for (const std::string& target : targets) {
+        options.code = target == "scalar" ? MarchCode::scalar : MarchCode::lanes;
+        use_lanes_target(target == "scalar" ? "" : target);
         std::vector<bool> listed(full.size());
         for (const uint32_t run : runs)
           for (size_t i = kRun * run; i < std::min(kRun * (run + 1), full.size()); ++i) {
@@ -139,9 +142,10 @@ TEST_P(MarchLanes, RunsMarchTheirRaysAsTheFullMarchDoesAndTouchNoOther) {
                    found.pixel[i] != (listed[i] ? full.pixel[i] : 77u);
           if (listed[i]) march_ray(v.depth(), v.screen_rays.get<float>(i), v.rays.pixel[i], options, steps);
         }
-        EXPECT_EQ(wrong, 0u) << runs.size() << (code == MarchCode::lanes ? " in lanes" : " scalar");
+        EXPECT_EQ(wrong, 0u) << runs.size() << " runs, " << target;
         EXPECT_EQ(found.steps, steps);
       }
+  use_lanes_target("");
 }
 
 INSTANTIATE_TEST_SUITE_P(Marchers, MarchLanes, testing::ValuesIn(kKinds),
