@@ -121,7 +121,7 @@ class Rasteriser {
     ScreenPolygon screen;
     const auto add = [&](const dvec3& p) {
       const double scale = view_.focal() / p.z;
-      screen.add({0.5 * view_.width() + scale * p.x, 0.5 * view_.height() + scale * p.y, a_ - b_ / p.z});
+      screen.add({view_.center().x + scale * p.x, view_.center().y + scale * p.y, a_ - b_ / p.z});
     };
     for (size_t i = 0; i < 3; ++i) {
       const dvec3 &a = seen[i], &b = seen[(i + 1) % 3];

@@ -42,8 +42,8 @@ void BlockChances::spread() {
 Reprojection::Reprojection(const View& from, const View& to) {
   const auto seen = [&](const dvec3& v) {
     const double z = glm::dot(v, to.forward());
-    return vec3(dvec3(to.focal() * glm::dot(v, to.right()) + 0.5 * to.width() * z,
-                      to.focal() * glm::dot(v, to.down()) + 0.5 * to.height() * z, z));
+    return vec3(dvec3(to.focal() * glm::dot(v, to.right()) + to.center().x * z,
+                      to.focal() * glm::dot(v, to.down()) + to.center().y * z, z));
   };
   const dvec3 apart = (from.eye() - to.eye()) / from.depth_b();
   base_ = seen(from.ray_direction(0.0, 0.0) - from.depth_a() * apart);

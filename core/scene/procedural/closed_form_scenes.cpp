@@ -1,14 +1,12 @@
 #include "core/scene/procedural/closed_form_scenes.h"
 
-#include "core/base/error.h"
+#include "core/scene/procedural/exact_scene.h"
 #include "core/scene/procedural/mesh_builder.h"
 
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
-
-#include <fmt/format.h>
 
 namespace hybray::procedural {
 namespace {
@@ -215,17 +213,6 @@ Scene furnace() {
   append_analytic(scene, analytic_sphere("ball", add_clear(scene, "glass", kGlassIor), dvec3(0), C::radius));
   add_lamp(scene, dvec3(C::light));
   add_camera(scene, {2.5, 2.5, -2.5}, {0, 0, 0}, 75.0f);
-  return scene;
-}
-
-template <Scene (*make)()>
-Scene exact(const Parameters& parameters) {
-  Scene scene = make();
-  if (parameters.triangles != 0 && parameters.triangles != scene.triangle_count())
-    throw InputError("generator " + scene.name,
-                     fmt::format("cannot make {} triangles; its form is exact and has {}",
-                                 parameters.triangles, scene.triangle_count()));
-  update_content_hash(scene);
   return scene;
 }
 
