@@ -53,7 +53,8 @@ TEST(Reprojection, SendsAPointWhereTheOtherViewSeesIt) {
     const View from(Camera{"a", vec3(1, 2, 6), vec3(0)},
                     {.width = 320, .height = 180, .convention = convention}, bounds);
     const View to(Camera{"b", vec3(-2, 1, 5), vec3(0.5f, 0, -1)},
-                  {.width = 200, .height = 150, .convention = convention}, bounds);
+                  {.width = 200, .height = 150, .convention = convention, .jitter = dvec2(0.4, -7.0)},
+                  bounds);
     const Reprojection map(from, to);
     for (uint64_t i = 0; i < 1000; ++i) {
       const auto coordinate = [&](uint32_t axis) { return 4.0 * random_unit(i, axis, 0, 9) - 2.0; };
