@@ -10,45 +10,40 @@
 #include <atomic>
 
 namespace hybray::ssrm {
-namespace {
 
-// `which` empty: all rays.
-void march_listed(const DepthView& view, const ScreenRays& rays, const std::vector<uint32_t>& pixels,
-                  std::span<const uint32_t> which, const MarchOptions& options, MarchResults& results) {
+void march_chosen(const DepthView& view, const ScreenRays& rays, const std::vector<uint32_t>& pixels,
+                  const RayChoice& choice, const MarchOptions& options, MarchResults& results) {
   HYBRAY_CHECK_EQ(rays.size(), pixels.size());
   HYBRAY_CHECK_EQ(rays.size(), results.size());
   HYBRAY_CHECK(options.marcher != Marcher::plane || view.slanted != nullptr);
   if (options.code == MarchCode::lanes) {
     const auto in_lanes = options.marcher == Marcher::plane ? march_plane_lanes : march_paper_lanes;
-    results.steps = in_lanes(view, rays, pixels, which, options, results);
+    results.steps = in_lanes(view, rays, pixels, choice, options, results);
     return;
   }
   std::atomic<uint64_t> steps{0};
-  parallel_blocks(which.empty() ? rays.size() : which.size(), 1024, [&](size_t begin, size_t end) {
+  const size_t block = 1024 / choice.rays_a_part();
+  parallel_blocks(choice.parts(rays.size()), block, [&](size_t begin, size_t end) {
     uint64_t mine = 0;
-    for (size_t k = begin; k < end; ++k) {
-      const size_t i = which.empty() ? k : which[k];
+    choice.visit(begin, end, rays.size(), [&](size_t i) {
       const Correction c = march_ray(view, rays.get<float>(i), pixels[i], options, mine);
       results.verdict[i] = c.verdict;
       results.pixel[i] = c.pixel;
       if (!results.proved.empty()) results.proved[i] = c.l;
-    }
+    });
     steps += mine;
   });
   results.steps = steps;
 }
 
-}  // namespace
-
 void march(const DepthView& view, const ScreenRays& rays, const std::vector<uint32_t>& pixels,
            const MarchOptions& options, MarchResults& results) {
-  march_listed(view, rays, pixels, {}, options, results);
+  march_chosen(view, rays, pixels, {}, options, results);
 }
 
 void march_some(const DepthView& view, const ScreenRays& rays, const std::vector<uint32_t>& pixels,
                 std::span<const uint32_t> which, const MarchOptions& options, MarchResults& results) {
-  results.steps = 0;
-  if (!which.empty()) march_listed(view, rays, pixels, which, options, results);
+  march_chosen(view, rays, pixels, {RayChoice::Of::listed, which}, options, results);
 }
 
 Correction march_ray(const DepthView& view, const ScreenRay<float>& ray, uint32_t pixel,

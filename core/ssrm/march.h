@@ -3,6 +3,7 @@
 
 #include "core/ssrm/correction.h"
 #include "core/ssrm/march_options.h"
+#include "core/ssrm/ray_choice.h"
 
 #include <span>
 #include <vector>
@@ -18,6 +19,10 @@ void march(const DepthView& view, const ScreenRays& rays, const std::vector<uint
 // places are not touched.
 void march_some(const DepthView& view, const ScreenRays& rays, const std::vector<uint32_t>& pixels,
                 std::span<const uint32_t> which, const MarchOptions& options, MarchResults& results);
+
+// The same for any choice of rays.
+void march_chosen(const DepthView& view, const ScreenRays& rays, const std::vector<uint32_t>& pixels,
+                  const RayChoice& choice, const MarchOptions& options, MarchResults& results);
 
 // One ray, scalar code. Adds the depth samples read to `steps`.
 Correction march_ray(const DepthView& view, const ScreenRay<float>& ray, uint32_t pixel,

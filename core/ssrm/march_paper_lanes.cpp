@@ -106,9 +106,8 @@ namespace hybray::ssrm {
 HWY_EXPORT(march_paper_block);
 
 uint64_t march_paper_lanes(const DepthView& view, const ScreenRays& rays, const std::vector<uint32_t>& pixels,
-                           std::span<const uint32_t> which, const MarchOptions& options,
-                           MarchResults& results) {
-  const WaveJob job(rays, pixels, which, view.pyramid, options);
+                           const RayChoice& choice, const MarchOptions& options, MarchResults& results) {
+  const WaveJob job(rays, pixels, choice, view.pyramid, options);
   return march_in_blocks(job, [&](size_t begin, size_t end, MarchWave& wave) {
     const uint64_t steps = HWY_DYNAMIC_DISPATCH(march_paper_block)(view, job, begin, end, wave);
     write_results(rays, view.width(), wave.ended, results);

@@ -4,15 +4,14 @@
 
 #include "core/ssrm/correction.h"
 #include "core/ssrm/march_options.h"
+#include "core/ssrm/ray_choice.h"
 
-#include <span>
 #include <vector>
 
 namespace hybray::ssrm {
 
-// The rays of `which` (empty: all), all threads; see march.h. Returns the depth samples read.
+// The chosen rays, all threads; see march.h. Returns the depth samples read.
 uint64_t march_paper_lanes(const DepthView& view, const ScreenRays& rays, const std::vector<uint32_t>& pixels,
-                           std::span<const uint32_t> which, const MarchOptions& options,
-                           MarchResults& results);
+                           const RayChoice& choice, const MarchOptions& options, MarchResults& results);
 
 }  // namespace hybray::ssrm

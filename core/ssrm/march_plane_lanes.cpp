@@ -83,9 +83,8 @@ namespace hybray::ssrm {
 HWY_EXPORT(march_plane_block);
 
 uint64_t march_plane_lanes(const DepthView& view, const ScreenRays& rays, const std::vector<uint32_t>& pixels,
-                           std::span<const uint32_t> which, const MarchOptions& options,
-                           MarchResults& results) {
-  const WaveJob job(rays, pixels, which, *view.slanted, options);
+                           const RayChoice& choice, const MarchOptions& options, MarchResults& results) {
+  const WaveJob job(rays, pixels, choice, *view.slanted, options);
   return march_in_blocks(job, [&](size_t begin, size_t end, MarchWave& wave) {
     uint64_t steps = HWY_DYNAMIC_DISPATCH(march_plane_block)(view, job, begin, end, wave);
     const MarchWave::Ended& ended = wave.ended;

@@ -4,16 +4,15 @@
 
 #include "core/ssrm/correction.h"
 #include "core/ssrm/march_options.h"
+#include "core/ssrm/ray_choice.h"
 
-#include <span>
 #include <vector>
 
 namespace hybray::ssrm {
 
-// view.slanted must be built. The rays of `which` (empty: all), all threads; see march.h. Returns the depth
+// view.slanted must be built. The chosen rays, all threads; see march.h. Returns the depth
 // samples read.
 uint64_t march_plane_lanes(const DepthView& view, const ScreenRays& rays, const std::vector<uint32_t>& pixels,
-                           std::span<const uint32_t> which, const MarchOptions& options,
-                           MarchResults& results);
+                           const RayChoice& choice, const MarchOptions& options, MarchResults& results);
 
 }  // namespace hybray::ssrm

@@ -204,20 +204,64 @@ HWY_INLINE size_t write_back(const Packet& p, size_t at, size_t out, M here, Mar
   return out + hn::CountTrue(df, p.live);
 }
 
-// Rays [begin, end) of the job, each at its own pixel.
-HWY_INLINE void fill(const WaveJob& job, size_t begin, size_t end, MarchWave& w) {
-  const size_t count = end - begin;
-  if (job.which.empty()) {
-    for (size_t i = 0; i < count; ++i) w.ray[i] = static_cast<uint32_t>(begin + i);
-  } else {
-    std::copy_n(job.which.data() + begin, count, w.ray.data());
-  }
-  const auto copy = [&](const std::vector<float>& from, MarchWave::Lanes<float>& to) {
-    if (job.which.empty()) {
+// Copies what the chosen rays of parts [begin, end) have in `from`, to.
+HWY_INLINE void load(const WaveJob& job, size_t begin, size_t end, const MarchWave& w, size_t count,
+                     const std::vector<float>& from, MarchWave::Lanes<float>& to) {
+  switch (job.choice.of) {
+    case RayChoice::Of::all:
       std::copy_n(from.data() + begin, count, to.data());
-    } else {
+      return;
+    case RayChoice::Of::listed:
       for (size_t i = 0; i < count; ++i) to[i] = from[w.ray[i]];
-    }
+      return;
+    case RayChoice::Of::runs:
+    case RayChoice::Of::rest_of_runs:
+      // A whole run is a copy of fixed length; the last ray takes the place of a sampled one.
+      const size_t left_out = job.choice.of == RayChoice::Of::rest_of_runs;
+      size_t at = 0;
+      for (size_t k = begin; k < end; ++k) {
+        const size_t first = kRun * job.choice.which[k];
+        if (first + kRun <= from.size()) {
+          std::copy_n(from.data() + first, kRun, to.data() + at);
+          if (left_out) to[at + kSampleOfRun] = to[at + kRun - 1];
+          at += kRun - left_out;
+        } else {
+          const size_t last = at + from.size() - first - left_out;
+          for (; at < last; ++at) to[at] = from[w.ray[at]];
+        }
+      }
+  }
+}
+
+// The numbers of the rays of parts [begin, end), in the order of load(). Returns how many they are.
+HWY_INLINE size_t number(const WaveJob& job, size_t begin, size_t end, MarchWave& w) {
+  switch (job.choice.of) {
+    case RayChoice::Of::all:
+      for (size_t i = begin; i < end; ++i) w.ray[i - begin] = static_cast<uint32_t>(i);
+      return end - begin;
+    case RayChoice::Of::listed:
+      std::copy_n(job.choice.which.data() + begin, end - begin, w.ray.data());
+      return end - begin;
+    case RayChoice::Of::runs:
+    case RayChoice::Of::rest_of_runs:
+      break;
+  }
+  const size_t rays = job.rays.size(), left_out = job.choice.of == RayChoice::Of::rest_of_runs;
+  size_t count = 0;
+  for (size_t k = begin; k < end; ++k) {
+    const size_t run = job.choice.which[k], first = kRun * run, here = std::min(kRun, rays - first);
+    for (size_t i = 0; i < here; ++i) w.ray[count + i] = static_cast<uint32_t>(first + i);
+    if (left_out) w.ray[count + sampled_ray(run, rays) - first] = static_cast<uint32_t>(first + here - 1);
+    count += here - left_out;
+  }
+  return count;
+}
+
+// The rays of parts [begin, end) of the job, each at its own pixel.
+HWY_INLINE void fill(const WaveJob& job, size_t begin, size_t end, MarchWave& w) {
+  const size_t count = number(job, begin, end, w);
+  const auto copy = [&](const std::vector<float>& from, MarchWave::Lanes<float>& to) {
+    load(job, begin, end, w, count, from, to);
   };
   copy(job.rays.ox, w.ox), copy(job.rays.oy, w.oy), copy(job.rays.oz, w.oz);
   copy(job.rays.dx, w.dx), copy(job.rays.dy, w.dy), copy(job.rays.dz, w.dz);
@@ -290,7 +334,7 @@ HWY_INLINE uint64_t march_on(const WaveJob& job, const Rule& rule, MarchWave& w)
   return steps;
 }
 
-// Rays [begin, end) of the job: afterwards all are in w.ended.
+// The rays of parts [begin, end) of the job: afterwards all are in w.ended.
 template <class Rule>
 HWY_INLINE uint64_t march_wave(const WaveJob& job, const Rule& rule, size_t begin, size_t end, MarchWave& w) {
   fill(job, begin, end, w);

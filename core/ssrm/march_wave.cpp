@@ -37,7 +37,8 @@ uint64_t march_in_blocks(const WaveJob& job,
                          const std::function<uint64_t(size_t, size_t, MarchWave&)>& block) {
   std::atomic<uint64_t> steps{0};
   tbb::enumerable_thread_specific<std::unique_ptr<MarchWave>> waves(std::make_unique<MarchWave>);
-  parallel_blocks(job.which.empty() ? job.rays.size() : job.which.size(), MarchWave::kSize,
+  const size_t parts = MarchWave::kSize / job.choice.rays_a_part();
+  parallel_blocks(job.choice.parts(job.rays.size()), parts,
                   [&](size_t begin, size_t end) { steps += block(begin, end, *waves.local()); });
   return steps;
 }

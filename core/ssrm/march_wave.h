@@ -4,6 +4,7 @@
 
 #include "core/base/check.h"
 #include "core/ssrm/march_options.h"
+#include "core/ssrm/ray_choice.h"
 #include "core/ssrm/screen_rays.h"
 
 #include <array>
@@ -46,7 +47,7 @@ using LevelTable = std::array<int32_t, kMostLevels>;
 struct WaveJob {
   const ScreenRays& rays;
   const std::vector<uint32_t>& pixels;
-  std::span<const uint32_t> which;  // rays to march; empty: all
+  RayChoice choice;
   int32_t width, height, levels;
   int32_t step_budget;  // 0: none
   Ascent ascent;
@@ -56,11 +57,11 @@ struct WaveJob {
   // No ray takes that many samples.
   static constexpr uint64_t kUnlimited = uint64_t{1} << 30;
   template <class Pyramid>
-  WaveJob(const ScreenRays& r, const std::vector<uint32_t>& p, std::span<const uint32_t> w,
-          const Pyramid& pyramid, const MarchOptions& options)
+  WaveJob(const ScreenRays& r, const std::vector<uint32_t>& p, const RayChoice& c, const Pyramid& pyramid,
+          const MarchOptions& options)
       : rays(r),
         pixels(p),
-        which(w),
+        choice(c),
         width(pyramid.width()),
         height(pyramid.height()),
         levels(pyramid.levels()),
@@ -79,8 +80,8 @@ struct WaveJob {
 // whose results are still to come. `width` of the screen.
 size_t write_results(const ScreenRays& rays, int width, const MarchWave::Ended& ended, MarchResults& results);
 
-// Marches the rays of `job` in blocks, all threads: `block` leaves those from begin on and before end in
-// wave.ended, writes their results, and returns the samples read, whose sum this returns.
+// Marches the chosen rays of `job` in blocks, all threads: `block` leaves those of the parts from begin on
+// and before end in wave.ended, writes their results, and returns the samples read, whose sum this returns.
 uint64_t march_in_blocks(const WaveJob& job,
                          const std::function<uint64_t(size_t begin, size_t end, MarchWave& wave)>& block);
 

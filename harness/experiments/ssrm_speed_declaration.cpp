@@ -19,14 +19,19 @@ std::vector<Parameter> parameters() {
           choice(
               "marcher", "paper", {"paper", "plane"},
               "Screen-space marcher: the paper's, or the one that takes pixels and cells as slanted planes."),
-          choice("predictor", "direction", {"sample", "direction", "history"},
-                 "What estimates a ray's chance: a sample of the frame; that and the ray's direction; "
-                 "these and the frame before."),
-          number("march_cost", "", 0.7, 0.0, 1.0,
-                 "T_SS / T_HW of a ray against the fastest mode: the chance from which on it is marched."),
-          number("march_cost_single", "", 0.3, 0.0, 1.0, "The same against single rays."),
-          number("path_step", "m", 0.05, 0.0, 1e6,
-                 "How far to the left the frame before was taken, for predictor history."),
+          choice("predictor", "history", {"sample", "history"},
+                 "What tells which tiles are worth a march: a sample of the frame, or the frames before, "
+                 "looked up where the surface was on the screen."),
+          number("least_chance", "", 0.6, 0.0, 10.0,
+                 "Chance of a HIT from which on a tile is marched, against the fastest mode; above 1: none "
+                 "is."),
+          number("least_chance_single", "", 0.38, 0.0, 10.0, "The same against single rays."),
+          number("path_step", "m", 0.02, 0.0, 1e6,
+                 "How far the camera has gone to the right from frame to frame, for predictor history."),
+          integer("path_frames", "", 8, 1, 1000,
+                  "Frames before, for predictor history; the first marches all."),
+          flag("remaining_segment", true,
+               "Also the designs whose trace starts where the march has proved emptiness."),
           flag("certified_misses", true,
                "Rays that pass in front of all conservative depth are not traced where the remaining "
                "segment is exact."),
@@ -44,9 +49,11 @@ std::vector<Column> columns() {
       {
           key("marcher", "screen-space marcher"),
           key("predictor", "what estimates a ray's chance of a HIT"),
-          key("march_cost", "chance from which on a ray is marched, fastest mode"),
-          key("march_cost_single", "the same against single rays"),
-          key("path_step_m", "distance to the frame before", "m"),
+          key("least_chance", "chance from which on a tile is marched, fastest mode"),
+          key("least_chance_single", "the same against single rays"),
+          key("path_step_m", "distance from frame to frame", "m"),
+          key("path_frames", "frames before"),
+          key("remaining_segment", "designs with a remaining segment are part of the run"),
           key("certified_misses", "certified misses are not traced"),
           share_of_rays("alpha", higher, "HIT / rays"),
           share_of_rays("alpha_predicted", higher,
@@ -72,16 +79,22 @@ std::vector<Column> columns() {
   add_time(c, "conservative", "conservative depth and its pyramid");
   add_time(c, "t_ss_scalar", "march of all rays, scalar code");
   add_time(c, "t_ss", "march of all rays, vector lanes");
-  add_time(c, "t_hw", "general tracer on all rays in its fastest mode");
+  add_time(c, "t_ss_listed", "the same by a list of all rays");
+  add_time(c, "t_ss_hits", "march of the rays that a march resolves, by a list");
+  add_time(c, "t_ss_others", "march of the others, by a list");
   add_trace_mode_columns(c);
-  add_time(c, "t_hw_single", "general tracer on all rays, one ray at a time");
   for (const auto& [end, with] : {std::pair("", "fastest mode"), std::pair("_single", "single rays")}) {
     const auto time = [&](const char* stem, const char* text) {
       add_time(c, std::string(stem) + end, std::string(text) + ", " + with);
     };
+    time("t_hw", "general tracer on all rays");
+    time("t_hw_listed", "the same by a list of all rays");
+    time("t_hw_hits", "general tracer on the rays that a march resolves, by a list");
+    time("t_hw_others", "general tracer on the others, by a list");
     time("t_hybrid", "pyramid, march, compaction, trace");
-    time("t_predicted", "the same with the predictor, its sample included");
+    time("t_predicted", "the same with the predictor, with all that it does");
     time("t_oracle", "the same marching exactly the rays that a march resolves");
+    time("t_oracle_runs", "as t_predicted by a predictor that knows each tile's share of HITs, for nothing");
     time("t_free", "compaction and trace alone: a march that costs nothing");
     time("t_centre", "hybrid with the remaining segment by pixel centres");
     time("t_exact", "hybrid with the exact remaining segment, conservative depth included");
@@ -91,12 +104,14 @@ std::vector<Column> columns() {
   add_ratio(c, "speedup_measured", "t_hw / t_hybrid");
   add_ratio(c, "speedup_predicted", "t_hw / t_predicted");
   add_ratio(c, "speedup_oracle", "t_hw / t_oracle");
+  add_ratio(c, "speedup_oracle_runs", "t_hw / t_oracle_runs");
   add_ratio(c, "speedup_free", "t_hw / t_free");
   add_ratio(c, "speedup_centre", "t_hw / t_centre");
   add_ratio(c, "speedup_exact", "t_hw / t_exact");
   add_ratio(c, "speedup_measured_vs_single", "t_hw_single / t_hybrid_single");
   add_ratio(c, "speedup_predicted_vs_single", "t_hw_single / t_predicted_single");
   add_ratio(c, "speedup_oracle_vs_single", "t_hw_single / t_oracle_single");
+  add_ratio(c, "speedup_oracle_runs_vs_single", "t_hw_single / t_oracle_runs_single");
   add_ratio(c, "speedup_free_vs_single", "t_hw_single / t_free_single");
   add_ratio(c, "speedup_centre_vs_single", "t_hw_single / t_centre_single");
   add_ratio(c, "speedup_exact_vs_single", "t_hw_single / t_exact_single");
@@ -106,12 +121,31 @@ std::vector<Column> columns() {
       "(t_hybrid - t_predicted) / (t_hybrid - t_oracle), by medians of the paired differences; empty where "
       "the interval of the denominator includes 0");
   add_interval(c, "predictor_efficiency_single", ColumnKind::time, higher, "the same against single rays");
-  c.push_back({"t_partitioned_ms", "ms", ColumnKind::time, lower,
-               "estimate alpha T_SS + (1 - alpha) T_HW (perfect predictor)"});
-  c.push_back(
-      {"t_partitioned_single_ms", "ms", ColumnKind::time, lower, "the same with T_HW of single rays"});
-  add_ratio(c, "oracle_partitioned_ratio", "t_oracle / t_partitioned", lower);
-  add_ratio(c, "oracle_partitioned_single_ratio", "t_oracle_single / t_partitioned_single", lower);
+  add_interval(c, "runs_efficiency", ColumnKind::time, higher, "predictor_efficiency with t_oracle_runs");
+  add_interval(c, "runs_efficiency_single", ColumnKind::time, higher, "the same against single rays");
+  for (const auto& [end, with] : {std::pair("", ""), std::pair("_single", ", single rays")}) {
+    const auto name = [&](const char* stem) { return std::string(stem) + end; };
+    const auto add_gap = [&](const char* stem, const char* text) {
+      add_ratio(c, name(stem), std::string(text) + ", / t_partitioned" + with, lower);
+    };
+    c.push_back(
+        {name("break_even_chance"), "1", ColumnKind::time, none,
+         std::string("chance of a HIT at which a march and the trace that it may save cost the same") + with +
+             "; empty where no chance pays for a march"});
+    c.push_back({name("t_partitioned") + "_ms", "ms", ColumnKind::time, lower,
+                 std::string("estimate alpha T_SS + (1 - alpha) T_HW (perfect predictor)") + with});
+    add_ratio(c, name("oracle_partitioned") + "_ratio", std::string("t_oracle / t_partitioned") + with,
+              lower);
+    add_gap("gap", "t_oracle - t_partitioned");
+    add_gap("gap_pyramid", "of it: the pyramid");
+    add_gap("gap_march_listed", "of it: rays are marched by a list");
+    add_gap("gap_march_apart", "of it: HITs and others are marched apart");
+    add_gap("gap_march_dearer", "of it: the march of a HIT costs more than the mean");
+    add_gap("gap_trace_listed", "of it: rays are traced by a list");
+    add_gap("gap_trace_apart", "of it: HITs and others are traced apart");
+    add_gap("gap_trace_dearer", "of it: the trace of an unresolved ray costs more than the mean");
+    add_gap("gap_rest", "what is left of it");
+  }
   add_repeats(c);
   return c;
 }

@@ -35,7 +35,8 @@ struct Soup {
   bool meets(size_t i, double distance, double share, const std::set<uint32_t>& triangles = {}) const {
     for (uint32_t t = 0; t < scene.triangle_count(); ++t) {
       if (!triangles.empty() && !triangles.contains(t)) continue;
-      const auto hit = test::exact_hit(scene, t, dvec3(main.rays.origin(i)), dvec3(main.rays.direction(i)), 1e-4);
+      const auto hit =
+          test::exact_hit(scene, t, dvec3(main.rays.origin(i)), dvec3(main.rays.direction(i)), 1e-4);
       if (hit && std::abs(*hit - distance) <= share * distance) return true;
     }
     return false;
@@ -46,8 +47,8 @@ TEST(ConfirmHits, KeepsWhatMeetsATriangleThereAndNothingThatMeetsNone) {
   const Soup soup;
   const LayerResults before = soup.march();
   LayerResults after = before;
-  const uint64_t taken_back = confirm_late_hits(soup.layered(), soup.view, soup.scene, soup.main.rays,
-                                                soup.main.screen_rays, after);
+  const uint64_t taken_back =
+      confirm_late_hits(soup.layered(), soup.view, soup.scene, soup.main.rays, soup.main.screen_rays, after);
   uint64_t gone = 0, kept = 0;
   for (size_t i = 0; i < before.march.size(); ++i) {
     const bool was_late = before.march.verdict[i] == Verdict::hit && before.late[i];

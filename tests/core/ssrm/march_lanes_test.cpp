@@ -103,6 +103,51 @@ TEST_P(MarchLanes, AListMarchesItsRaysAsTheFullMarchDoesAndTouchesNoOther) {
   }
 }
 
+TEST_P(MarchLanes, RunsMarchTheirRaysAsTheFullMarchDoesAndTouchNoOther) {
+  const Scene scene = test::triangle_soup(300, 1.0f, 2.0f, 21);
+  const Tracer tracer(scene, {.robust = true});
+  const test::MainView v(tracer, View(Camera{"c", vec3(0, 0.5f, 3), vec3(0)},
+                                      {.width = 333, .height = 217, .near = 0.5}, scene.bounds));
+  MarchOptions options{.marcher = GetParam().marcher, .ascent = GetParam().ascent};
+  const MarchResults full = v.march(options);
+  ASSERT_NE(full.size() % kRun, 0u) << "the last run is a short one";
+  std::vector<uint32_t> some, all(runs_of(full.size()));
+  for (uint32_t run = 0; run < all.size(); ++run) {
+    all[run] = run;
+    if (run % 3 != 1 || run + 1 == all.size()) some.push_back(run);
+  }
+  std::reverse(some.begin(), some.end());  // any order
+  std::vector<std::string> targets = lanes_targets();
+  targets.push_back("scalar");
+  for (const RayChoice::Of of : {RayChoice::Of::runs, RayChoice::Of::rest_of_runs})
+    for (const std::vector<uint32_t>& runs : {some, all, std::vector<uint32_t>{}})
+      for (const std::string& target : targets) {
+        options.code = target == "scalar" ? MarchCode::scalar : MarchCode::lanes;
+        use_lanes_target(target == "scalar" ? "" : target);
+        std::vector<bool> listed(full.size());
+        for (const uint32_t run : runs)
+          for (size_t i = kRun * run; i < std::min(kRun * (run + 1), full.size()); ++i) {
+            const bool sampled = i == std::min(kRun * run + kSampleOfRun, full.size() - 1);
+            listed[i] = of == RayChoice::Of::runs || !sampled;
+          }
+        MarchResults found;
+        found.resize(full.size());
+        std::fill(found.pixel.begin(), found.pixel.end(), 77u);
+        std::fill(found.verdict.begin(), found.verdict.end(), Verdict::budget);
+        march_chosen(v.depth(), v.screen_rays, v.rays.pixel, {of, runs}, options, found);
+        size_t wrong = 0;
+        uint64_t steps = 0;
+        for (size_t i = 0; i < full.size(); ++i) {
+          wrong += found.verdict[i] != (listed[i] ? full.verdict[i] : Verdict::budget) ||
+                   found.pixel[i] != (listed[i] ? full.pixel[i] : 77u);
+          if (listed[i]) march_ray(v.depth(), v.screen_rays.get<float>(i), v.rays.pixel[i], options, steps);
+        }
+        EXPECT_EQ(wrong, 0u) << runs.size() << " runs, " << target;
+        EXPECT_EQ(found.steps, steps);
+      }
+  use_lanes_target("");
+}
+
 // Rays whose origin has been rounded away from their own pixel, as far from the world's origin: whatever they
 // find, it is on the screen, and the same in lanes.
 TEST_P(MarchLanes, RaysThatStartBesideTheirPixelStayOnTheScreen) {

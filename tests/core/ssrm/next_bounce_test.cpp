@@ -1,5 +1,6 @@
 #include "core/ssrm/next_bounce.h"
 
+#include "core/ssrm/predictor.h"
 #include "core/truth/ray_truth.h"
 #include "tests/core/ssrm/main_view.h"
 #include "tests/core/test_scenes.h"
@@ -12,7 +13,7 @@ namespace hybray::ssrm {
 namespace {
 
 // Two parallel mirrors, floor y = 0 and ceiling y = 4, 40 m square, seen lengthwise by a camera between.
-class ParallelMirrors : public testing::Test {
+class ParallelMirrors : public testing::TestWithParam<Marcher> {
  protected:
   static constexpr double kHeight = 4.0, kHalf = 20.0;
   static Scene corridor() {
@@ -28,14 +29,14 @@ class ParallelMirrors : public testing::Test {
   const test::MainView v_{tracer_, view_};
 };
 
-TEST_F(ParallelMirrors, SendEveryPathWhereTheClosedFormDoes) {
+TEST_P(ParallelMirrors, SendEveryPathWhereTheClosedFormDoes) {
   RayStream rays = v_.rays;
   ScreenRays screen_rays = v_.screen_rays;
   size_t resolved = 0, traced = 0, checked = 0;
   for (int bounce = 1; bounce <= 3; ++bounce) {
     MarchResults results;
     results.resize(rays.size());
-    march(v_.depth(), screen_rays, rays.pixel, {}, results);
+    march(v_.depth(), screen_rays, rays.pixel, {.marcher = GetParam()}, results);
     HitStream hits;
     hits.resize(rays.size());
     tracer_.trace(rays, hits, TraceMode::single);
@@ -78,7 +79,7 @@ TEST_F(ParallelMirrors, SendEveryPathWhereTheClosedFormDoes) {
   EXPECT_GT(traced, 300u);
 }
 
-TEST_F(ParallelMirrors, MarchFromTracedHitsThatTheViewShowsAndFromNoOthers) {
+TEST_P(ParallelMirrors, MarchFromTracedHitsThatTheViewShowsAndFromNoOthers) {
   MarchResults none;  // as if nothing had been resolved
   none.resize(v_.rays.size());
   std::fill(none.verdict.begin(), none.verdict.end(), Verdict::offscreen);
@@ -90,7 +91,7 @@ TEST_F(ParallelMirrors, MarchFromTracedHitsThatTheViewShowsAndFromNoOthers) {
   const NextBounce next = next_bounce(v_.gbuffer, scene_, v_.depth(), v_.rays, v_.screen_rays, none, hits);
   MarchResults results;
   results.resize(next.rays.size());
-  march(v_.depth(), next.screen_rays, next.rays.pixel, {}, results);
+  march(v_.depth(), next.screen_rays, next.rays.pixel, {.marcher = GetParam()}, results);
   size_t j = 0, differ = 0, unseen = 0;
   for (size_t i = 0; i < v_.rays.size(); ++i) {
     if (hits.primitive[i] == kNoPrimitive) continue;
@@ -111,9 +112,30 @@ TEST_F(ParallelMirrors, MarchFromTracedHitsThatTheViewShowsAndFromNoOthers) {
   // The lanes treat rays that are not marched in the same way.
   MarchResults lanes;
   lanes.resize(next.rays.size());
-  march(v_.depth(), next.screen_rays, next.rays.pixel, {.code = MarchCode::lanes}, lanes);
+  const MarchOptions options{.code = MarchCode::lanes, .marcher = GetParam()};
+  march(v_.depth(), next.screen_rays, next.rays.pixel, options, lanes);
   EXPECT_EQ(lanes.verdict, results.verdict);
+  EXPECT_EQ(lanes.pixel, results.pixel);
+  // Runs of this stream are no tiles; what a predictor marches of it ends the same all the same.
+  const DepthView depth = v_.depth();
+  Prediction prediction;
+  march_by_sample({depth, next.screen_rays, next.rays.pixel, options}, 0.4, lanes, prediction);
+  EXPECT_GT(prediction.marched, next.rays.size() / 10);
+  EXPECT_LT(prediction.marched, next.rays.size());
+  size_t wrong = 0, left = 0;
+  for (size_t i = 0; i < results.size(); ++i) {
+    left += lanes.verdict[i] == Verdict::budget;
+    wrong += lanes.verdict[i] != Verdict::budget &&
+             (lanes.verdict[i] != results.verdict[i] || lanes.pixel[i] != results.pixel[i]);
+  }
+  EXPECT_EQ(wrong, 0u);
+  EXPECT_EQ(left + prediction.marched, next.rays.size());
 }
+
+INSTANTIATE_TEST_SUITE_P(Marchers, ParallelMirrors, testing::Values(Marcher::paper, Marcher::plane),
+                         [](const auto& test) {
+                           return std::string(test.param == Marcher::plane ? "Plane" : "Paper");
+                         });
 
 }  // namespace
 }  // namespace hybray::ssrm

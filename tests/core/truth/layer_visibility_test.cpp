@@ -35,13 +35,13 @@ TEST(LayerVisibility, CountsTheSheetsBetweenTheEyeAndTheHit) {
   const View view(Camera{"c", vec3(0), vec3(0, 0, -1)}, {.width = 64, .height = 64}, scene.bounds);
   const vec3 away(0.1f, 0.05f, -1), back(0.1f, 0.05f, 1);
   const std::vector<Probe> probes = {
-      {vec3(0.1f, 0, -1), away},     // the first sheet
-      {vec3(0.1f, 0, -3), back},     // the same, from behind
-      {vec3(0.1f, 0, -3), away},     // the second
-      {vec3(0.1f, 0, -5), back},     // the second, from behind
-      {vec3(0.1f, 0, -5), away},     // the third
-      {vec3(0.1f, 0, -7), away},     // nothing
-      {vec3(30.0f, 0, -3), away},    // the second, beside the view
+      {vec3(0.1f, 0, -1), away},      // the first sheet
+      {vec3(0.1f, 0, -3), back},      // the same, from behind
+      {vec3(0.1f, 0, -3), away},      // the second
+      {vec3(0.1f, 0, -5), back},      // the second, from behind
+      {vec3(0.1f, 0, -5), away},      // the third
+      {vec3(0.1f, 0, -7), away},      // nothing
+      {vec3(30.0f, 0, -3), away},     // the second, beside the view
       {vec3(0.1f, 0, -1), {1, 0, 0}}  // nothing
   };
   EXPECT_EQ(layers_of(tracer, view, probes, 3),
@@ -54,7 +54,8 @@ TEST(LayerVisibility, CountsTheSheetsBetweenTheEyeAndTheHit) {
 TEST(LayerVisibility, CountsWhatBruteForceCounts) {
   const Scene scene = test::triangle_soup(120, 1.0f, 2.0f, 9);
   const Tracer tracer(scene, {.robust = true, .layers = true});
-  const View view(Camera{"c", vec3(0, 0, 6), vec3(0)}, {.width = 64, .height = 64, .near = 0.5}, scene.bounds);
+  const View view(Camera{"c", vec3(0, 0, 6), vec3(0)}, {.width = 64, .height = 64, .near = 0.5},
+                  scene.bounds);
   constexpr uint64_t kSeed = 4;
   std::vector<Probe> probes;
   for (uint64_t i = 0; i < 3000; ++i) {
@@ -78,7 +79,8 @@ TEST(LayerVisibility, CountsWhatBruteForceCounts) {
         const double length = glm::distance(point, view.eye());
         int between = 0;
         for (uint32_t t = 0; t < scene.triangle_count(); ++t)
-          between += test::exact_hit(scene, t, view.eye(), sight).value_or(1e30) < length * (1.0 - kVisibilityTolerance);
+          between += test::exact_hit(scene, t, view.eye(), sight).value_or(1e30) <
+                     length * (1.0 - kVisibilityTolerance);
         if (inside && between < layers) expected = static_cast<uint8_t>(between);
       }
       different += found[i] != expected;
