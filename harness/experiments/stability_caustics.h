@@ -22,7 +22,7 @@ Row run(const Point& point, Workspace& workspace);
 // What light is traced through.
 struct Body {
   Scene scene;                            // in place
-  Pose pose;                    // of the closed form's coordinates in it
+  Pose pose;                              // of the closed form's coordinates in it
   std::optional<truth::ClosedForm> form;  // none: too few events are followed, or nothing may arrive
   double flux_scale = 1.0;                // flux in it / flux of the closed form
   float receiver_ior = 1.0f;              // of the medium in which light reaches the receiver; 0: any

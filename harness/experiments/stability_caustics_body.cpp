@@ -53,8 +53,7 @@ Body unplaced(const Point& point) {
 Body make_body(const Point& point) {
   Body body = unplaced(point);
   const double scale = point.number("scale");
-  body.pose = {scale, rotation(kTurnAxis, point.number("turn") * kDegree),
-                    dvec3(point.number("offset"))};
+  body.pose = {scale, rotation(kTurnAxis, point.number("turn") * kDegree), dvec3(point.number("offset"))};
   if (point.number("turn") == 0.0) body.pose.turn = dmat3(1.0);
   // In two steps: what floats lose at the offset is lost, whatever is taken away again.
   body.scene = posed(body.scene, body.pose, &body.collapsed);
