@@ -14,7 +14,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 
 try:
-    from figures import accuracy, caustics, designs, pictures, scaling, ssrm, ssrm_layers, ssrm_rays, time_error
+    from figures import accuracy, caustics, designs, pictures, scaling, ssrm, ssrm_layers, ssrm_rays, stability, time_error
     from figures.results import Results, Skip
     from inputs import InputError
 except ModuleNotFoundError as missing:
@@ -34,6 +34,7 @@ FIGURES: dict[str, Draw] = {
     "ssrm_layers": ssrm_layers.draw,
     "ssrm_breakeven": ssrm_rays.draw_break_even,
     "ssrm_distribution": ssrm_rays.draw_distribution,
+    "stability": stability.draw,
     "caustics_onoff": pictures.draw_onoff,
     "caustics_rays": partial(caustics.draw_rays, name="caustics_rays"),
     "caustics_rays_objects": partial(caustics.draw_rays, name="caustics_rays_objects"),

@@ -6,14 +6,15 @@ from collections.abc import Iterable
 from csv_table import Row
 
 # Parameters of the experiments, as columns. Columns that a table does not have are passed over.
-KEYS = ("scene", "camera", "width", "height", "near_m", "depth_convention", "derivatives", "marcher", "bounds", "ascent",
+KEYS = ("scene", "camera", "width", "height", "near_m", "far_near_ratio", "far_plane", "depth_convention", "depth_format",
+        "depth_rounding", "derivatives", "scene_scale", "offset_m", "origin", "incidence_deg", "jitter_x_px", "jitter_y_px", "ray_offset", "tracer", "marcher", "bounds", "ascent",
         "march_code", "predictor", "march_cost", "march_cost_single", "path_step_m", "certified_misses", "check", "thickness_m",
         "stride_px", "confidence", "step_budget", "ray_kind", "roughness", "rays_per_pixel", "length_m", "light",
         "sun_elevation_degrees", "sun_azimuth_degrees", "tracer_mode", "footprint_factor", "layers", "guard_band", "free_space",
         "march_on", "confirm", "min_max", "caustics", "map_resolution", "rays_per_texel", "mirror_depth", "lights_visible",
         "lights_invisible", "emission", "first_surface", "visibility", "mixed", "gather_radius", "camera_paths",
-        "roulette_threshold", "filter", "body", "ior", "thickness_m", "incidence_degrees", "scale", "turn_degrees", "offset_m",
-        "origin", "leaving_offset", "robust", "threads")
+        "roulette_threshold", "filter", "body", "ior", "incidence_degrees", "scale", "turn_degrees", "leaving_offset",
+        "robust", "threads")
 Group = tuple[tuple[str, str], ...]
 
 

@@ -10,9 +10,11 @@
 namespace hybray::caustics {
 namespace {
 
-// Number of the object that a primitive belongs to; analytic surfaces follow the objects.
+// Number of the object that a primitive belongs to; analytic surfaces follow the objects, and all curves
+// together come last.
 uint32_t object_of(const Scene& scene, uint32_t primitive) {
-  if (scene.is_analytic(primitive))
+  if (scene.is_curve(primitive)) return static_cast<uint32_t>(scene.objects.size() + scene.analytic.size());
+  if (!scene.is_triangle(primitive))
     return static_cast<uint32_t>(scene.objects.size() + (primitive - scene.triangles.size()));
   const auto next =
       std::upper_bound(scene.objects.begin(), scene.objects.end(), primitive,

@@ -19,7 +19,8 @@ using LastSurfaces = std::array<uint32_t, PathFront::kSize>;
 bool returns(const Scene& scene, const PathFront& front, size_t i, uint32_t left) {
   const uint32_t primitive = front.hits.primitive[i];
   if (primitive == kNoPrimitive || primitive != left) return false;
-  if (!scene.is_analytic(primitive)) return true;
+  if (scene.is_triangle(primitive)) return true;
+  if (!scene.is_analytic(primitive)) return false;  // curves bend: a path may come back
   const AnalyticSurface& surface = scene.analytic_surface(primitive);
   const dvec3 origin(front.rays.origin(i)), direction(front.rays.direction(i));
   const dvec3 end = origin + static_cast<double>(front.hits.t[i]) * direction;

@@ -4,6 +4,7 @@
 #include "core/base/parallel.h"
 #include "core/caustics/emission_lanes.h"
 #include "core/optics/specular_step.h"
+#include "core/scene/curved_primitive.h"
 
 #include <algorithm>
 #include <limits>
@@ -28,9 +29,9 @@ StoredHit stored_hit(const Scene& scene, const LightTexel& texel, const dvec3& o
                      const dvec3& direction) {
   const StoredHit centre{origin + static_cast<double>(texel.distance) * direction,
                          {0.0f, texel.primitive, texel.u, texel.v}};
-  if (scene.is_analytic(texel.primitive)) {
-    const auto t = nearest_hit(scene.analytic_surface(texel.primitive), origin, direction, 0.0,
-                               std::numeric_limits<double>::infinity());
+  if (!scene.is_triangle(texel.primitive)) {
+    const auto t =
+        nearest_hit(scene, texel.primitive, origin, direction, 0.0, std::numeric_limits<double>::infinity());
     return {t ? origin + *t * direction : centre.position, centre.hit};
   }
   const uvec3& tri = scene.triangles[texel.primitive];

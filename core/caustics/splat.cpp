@@ -97,8 +97,8 @@ double largest_radiance(double flux, const GBuffer& camera) {
   const double w =
       std::max(view.near(), view.view_depth_of(static_cast<double>(sign) * static_cast<double>(nearest)));
   // In a corner of the image the distance d is longer than the depth w: d / w^3 grows with it.
-  const double corner =
-      std::hypot(1.0, 0.5 * view.width() / view.focal(), 0.5 * view.height() / view.focal());
+  const dvec2 reach = glm::max(view.center(), dvec2(view.width(), view.height()) - view.center());
+  const double corner = std::hypot(1.0, reach.x / view.focal(), reach.y / view.focal());
   // Not so small that the scale of a FixedPointImage would be infinite.
   return std::max(1e-280, flux * view.focal() * view.focal() * corner / (std::numbers::pi * w * w));
 }

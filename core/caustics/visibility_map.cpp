@@ -92,6 +92,13 @@ SpecularTargets specular_targets(const Scene& scene, const optics::OpticsTable& 
   }
   for (const AnalyticSurface& surface : scene.analytic)
     if (optics.materials[surface.material].specular) targets.boxes.push_back(bounds(surface));
+  Bounds3 curves;
+  for (const RoundCurve& curve : scene.curves) {
+    if (!optics.materials[curve.material].specular) continue;
+    const Bounds3 box = bounds(curve);
+    curves.extend(box.lower), curves.extend(box.upper);
+  }
+  if (!curves.empty()) targets.boxes.push_back(curves);
   return targets;
 }
 

@@ -36,7 +36,7 @@ struct VisibilityMap {
 
 // The specular geometry of a scene, once a scene.
 struct SpecularTargets {
-  std::vector<Bounds3> boxes;  // one an object or analytic surface
+  std::vector<Bounds3> boxes;  // one an object or analytic surface, one for all curves
 };
 SpecularTargets specular_targets(const Scene& scene, const optics::OpticsTable& optics);
 

@@ -84,7 +84,7 @@ class Rasteriser {
       for (int x = first(x0, rim); x <= last(x1, rim, view_.width()); ++x) {
         const auto [gx, gy] = slopes(x, y);
         put(x, y, z, z - (0.5 + rim) * (std::abs(gx) + std::abs(gy)), rim);
-        out_.origin_clear(x, y) = 0;
+        std::atomic_ref<uint8_t>(out_.origin_clear(x, y)).store(0, std::memory_order_relaxed);
       }
   }
 
@@ -121,7 +121,7 @@ class Rasteriser {
     ScreenPolygon screen;
     const auto add = [&](const dvec3& p) {
       const double scale = view_.focal() / p.z;
-      screen.add({0.5 * view_.width() + scale * p.x, 0.5 * view_.height() + scale * p.y, a_ - b_ / p.z});
+      screen.add({view_.center().x + scale * p.x, view_.center().y + scale * p.y, a_ - b_ / p.z});
     };
     for (size_t i = 0; i < 3; ++i) {
       const dvec3 &a = seen[i], &b = seen[(i + 1) % 3];
@@ -226,7 +226,7 @@ class Rasteriser {
   bool origin_stays_clear(const ScreenPolygon& part, int x, int y) {
     const uint32_t primitive = g_.primitive(x, y);
     if (primitive == kNoPrimitive || primitive == id_) return true;
-    if (scene_.is_analytic(primitive)) return false;
+    if (!scene_.is_triangle(primitive)) return false;
     if (primitive != own_.primitive) set_own(primitive);
     if (own_.triangle_height <= 0.0) return true;
     const double w = view_.view_depth_of(g_.depth(x, y));
@@ -288,6 +288,11 @@ void make_conservative_depth(const GBuffer& g, const Scene& scene, ConservativeD
     touched += mine;
   });
   for (const AnalyticSurface& surface : scene.analytic) Rasteriser(g, scene, result).box(bounds(surface));
+  parallel_blocks(scene.curves.size(), 256, [&](size_t begin, size_t end) {
+    Rasteriser rasteriser(g, scene, result);
+    for (size_t i = begin; i < end; ++i)
+      for (const Bounds3& piece : piece_bounds(scene.curves[i])) rasteriser.box(piece);
+  });
   result.pixels_touched = touched;
   // From march depth to the buffer's convention.
   const float sign = static_cast<float>(g.view.depth_sign()), background = g.view.background_depth();

@@ -39,7 +39,8 @@ constexpr double pixel_rim(int width, int height) {
 }
 
 // Needs depth, derivatives and primitives of `g`, all threads; the same at any number of them. `result` is
-// reused from call to call. An analytic surface counts as its bounding box.
+// reused from call to call. An analytic surface counts as its bounding box, a curve as those of
+// its pieces.
 void make_conservative_depth(const GBuffer& g, const Scene& scene, ConservativeDepth& result);
 
 }  // namespace hybray

@@ -21,8 +21,8 @@ bool shows_front(const View& view, const Scene& scene, uint32_t primitive, int x
 }
 
 // View depth of the first surface; of one seen edge-on, where the view begins: nothing but it is nearer.
-float seen_depth(const View& view, const Scene& scene, uint32_t triangle, int x, int y) {
-  const double w = 1.0 / triangle_plane(view, scene, triangle, x + 0.5, y + 0.5).inverse_w;
+float seen_depth(const View& view, const Scene& scene, uint32_t primitive, int x, int y) {
+  const double w = 1.0 / tangent_plane(view, scene, primitive, x + 0.5, y + 0.5).inverse_w;
   return static_cast<float>(w >= view.near() && w <= view.far() ? w : view.near());
 }
 

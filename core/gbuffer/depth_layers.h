@@ -24,8 +24,9 @@ struct DepthLayers {
 
 // Layers 2 to `count` <= DepthLayers::kMost behind the buffers of `first`, which must hold primitives;
 // all threads. `tracer`: built with Tracer::Config::layers. A triangle counts once along a ray, and
-// coincident ones each on their own, in an order that the tracer chooses. An analytic surface is the last
-// layer of its pixel: what lies behind its first point is not known.
+// coincident ones each on their own, in an order that the tracer chooses. A curve counts once,
+// by its near side. An analytic surface is the last layer of its pixel: what lies behind its first point is
+// not known.
 DepthLayers make_depth_layers(const Tracer& tracer, const GBuffer& first, int count);
 
 }  // namespace hybray

@@ -1,6 +1,7 @@
 #include "core/gbuffer/facing_surface.h"
 
 #include "core/gbuffer/triangle_plane.h"
+#include "core/scene/curved_primitive.h"
 #include "core/scene/surface_point.h"
 
 #include <algorithm>
@@ -14,9 +15,9 @@ double largest(const dvec3& v) {
 }
 
 // What the rounding of an intersection with a primitive at point p grows with: the largest of the coordinates
-// of p and of its distances to the triangle's vertices, or the size of the analytic surface.
+// of p and of its distances to the triangle's vertices, or the size of the analytic surface or curve.
 double rounding_scale(const Scene& scene, uint32_t primitive, const dvec3& p) {
-  if (scene.is_analytic(primitive)) return std::max(largest(p), extent(scene.analytic_surface(primitive)));
+  if (!scene.is_triangle(primitive)) return std::max(largest(p), extent(scene, primitive));
   double scale = largest(p);
   const uvec3& tri = scene.triangles[primitive];
   for (uint32_t v : {tri.x, tri.y, tri.z}) scale = std::max(scale, largest(dvec3(scene.positions[v]) - p));

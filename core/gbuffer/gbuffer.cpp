@@ -34,7 +34,7 @@ void store_pixel(GBuffer& g, const Scene& scene, int x, int y, const Hit& hit) {
       g.depth_derivatives(x, y) =
           vec2(static_cast<float>(b * plane.slope_x), static_cast<float>(b * plane.slope_y));
   }
-  if (scene.is_analytic(hit.primitive)) {
+  if (!scene.is_triangle(hit.primitive)) {
     const dvec3 point = seen_point(g.view, scene, hit.primitive, x + 0.5, y + 0.5);
     const vec3 n(geometric_normal(scene, hit.primitive, point));
     if (!g.geometric_normal.empty()) g.geometric_normal(x, y) = n;

@@ -1,5 +1,7 @@
 #include "core/gbuffer/triangle_plane.h"
 
+#include "core/scene/curved_primitive.h"
+
 #include <cmath>
 
 namespace hybray {
@@ -13,8 +15,8 @@ TrianglePlane plane_through(const View& view, const dvec3& point, const dvec3& n
           glm::dot(n, view.down()) * per_pixel};
 }
 
-std::optional<double> seen_depth(const View& view, const AnalyticSurface& surface, const dvec3& ray) {
-  return nearest_hit(surface, view.eye(), ray, view.near(), view.far());
+std::optional<double> seen_depth(const View& view, const Scene& scene, uint32_t primitive, const dvec3& ray) {
+  return nearest_hit(scene, primitive, view.eye(), ray, view.near(), view.far());
 }
 
 }  // namespace
@@ -26,22 +28,19 @@ TrianglePlane triangle_plane(const View& view, const Scene& scene, uint32_t tria
 }
 
 TrianglePlane tangent_plane(const View& view, const Scene& scene, uint32_t primitive, double px, double py) {
-  if (!scene.is_analytic(primitive)) return triangle_plane(view, scene, primitive, px, py);
-  const AnalyticSurface& surface = scene.analytic_surface(primitive);
+  if (scene.is_triangle(primitive)) return triangle_plane(view, scene, primitive, px, py);
   const dvec3 ray = view.ray_direction(px, py);
-  const std::optional<double> w = seen_depth(view, surface, ray);
+  const std::optional<double> w = seen_depth(view, scene, primitive, ray);
   if (!w) return {std::nan(""), std::nan(""), std::nan("")};
   const dvec3 point = view.eye() + *w * ray;
-  return plane_through(view, point, outward_normal(surface, point), px, py);
+  return plane_through(view, point, outward_normal(scene, primitive, point), px, py);
 }
 
 dvec3 seen_point(const View& view, const Scene& scene, uint32_t primitive, double px, double py) {
   const dvec3 ray = view.ray_direction(px, py);
-  if (scene.is_analytic(primitive)) {
-    const AnalyticSurface& surface = scene.analytic_surface(primitive);
-    if (const std::optional<double> w = seen_depth(view, surface, ray)) return view.eye() + *w * ray;
-    const double nearest = glm::dot(surface.center - view.eye(), ray) / glm::dot(ray, ray);
-    return moved_onto(surface, view.eye() + nearest * ray);
+  if (!scene.is_triangle(primitive)) {
+    const std::optional<double> w = seen_depth(view, scene, primitive, ray);
+    return w ? view.eye() + *w * ray : beside(scene, primitive, view.eye(), ray);
   }
   const double inverse_w = triangle_plane(view, scene, primitive, px, py).inverse_w;
   if (!(inverse_w > 0.0) || !std::isfinite(inverse_w))

@@ -1,4 +1,4 @@
-// The plane of a triangle, or the tangent plane of an analytic surface, as the screen sees it: 1/w is affine
+// The plane of a triangle, or the tangent plane of a curved primitive, as the screen sees it: 1/w is affine
 // in the pixel coordinates, so one value and two slopes say it all.
 #pragma once
 
@@ -16,8 +16,8 @@ struct TrianglePlane {
 // eye)), d the ray direction of the point. Not finite, or not positive, where the plane is seen edge-on.
 TrianglePlane triangle_plane(const View& view, const Scene& scene, uint32_t triangle, double px, double py);
 
-// The same of any primitive: of an analytic surface, its tangent plane at the point seen through (px, py),
-// the first one beyond the near plane. Not finite where there is no such point.
+// The same of any primitive: of an analytic surface or a curve, its tangent plane at the point seen through
+// (px, py), the first one beyond the near plane. Not finite where there is no such point.
 TrianglePlane tangent_plane(const View& view, const Scene& scene, uint32_t primitive, double px, double py);
 
 // The point of a primitive seen through (px, py). Where the primitive is seen edge-on, some point of it on

@@ -30,6 +30,7 @@ View::View(const Camera& camera, const Settings& s, const Bounds3& bounds)
       near_(s.near),
       far_(s.far),
       convention_(s.convention),
+      center_(dvec2(0.5 * s.width, 0.5 * s.height) + s.jitter),
       eye_(camera.eye) {
   const std::string where = "camera " + camera.name;
   if (s.width < 1 || s.height < 1)
@@ -67,6 +68,7 @@ View View::with_margin(int x, int y) const {
   View larger = *this;
   larger.width_ += 2 * x;
   larger.height_ += 2 * y;
+  larger.center_ += dvec2(x, y);
   return larger;
 }
 

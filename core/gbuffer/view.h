@@ -25,6 +25,7 @@ class View {
     double near = 0.1;          // metres, > 0
     double far = 0.0;  // metres, > near, may be infinity; 0: just beyond the farthest corner of `bounds`
     DepthConvention convention = DepthConvention::reversed;
+    dvec2 jitter{0.0};  // pixels by which the view axis is moved on the screen, for anti-aliasing over time
   };
 
   // Throws InputError for settings out of range and for a camera whose axes are degenerate.
@@ -47,11 +48,12 @@ class View {
   const dvec3& down() const { return down_; }        // unit, toward +y on the screen
   const dvec3& forward() const { return forward_; }  // unit, view axis
   double focal() const { return focal_; }            // focal length in pixels
+  const dvec2& center() const { return center_; }    // screen point of the view axis
 
   // Direction through screen point (px, py) whose component along the view axis is 1: eye + w * ray_direction
   // is the point at view depth w.
   dvec3 ray_direction(double px, double py) const {
-    return forward_ + ((px - 0.5 * width_) / focal_) * right_ + ((py - 0.5 * height_) / focal_) * down_;
+    return forward_ + ((px - center_.x) / focal_) * right_ + ((py - center_.y) / focal_) * down_;
   }
   double view_depth(const dvec3& world) const { return glm::dot(world - eye_, forward_); }
 
@@ -59,7 +61,7 @@ class View {
   dvec2 project(const dvec3& world) const {
     const dvec3 d = world - eye_;
     const double scale = focal_ / glm::dot(d, forward_);
-    return {0.5 * width_ + scale * glm::dot(d, right_), 0.5 * height_ + scale * glm::dot(d, down_)};
+    return {center_.x + scale * glm::dot(d, right_), center_.y + scale * glm::dot(d, down_)};
   }
 
   // Device depth a + b / w and its inverse.
@@ -77,6 +79,7 @@ class View {
   int width_, height_;
   double near_, far_, focal_, a_, b_;
   DepthConvention convention_;
+  dvec2 center_;
   dvec3 eye_, right_, down_, forward_;
 };
 

@@ -21,7 +21,22 @@ void add(VerdictTable& sum, const VerdictTable& part) {
   sum.false_misses += part.false_misses;
 }
 
+double footprint(const View& view, const dvec3& point) {
+  return view.view_depth(point) / view.focal();
+}
+
 }  // namespace
+
+HitClass classify_hit(const View& view, const Scene& scene, const dvec3& origin, const dvec3& direction,
+                      uint32_t primitive, double claimed, double true_t, const Tolerance& tolerance) {
+  if (std::isinf(true_t)) return HitClass::phantom;
+  const dvec3 point = origin + claimed * direction;
+  const double cosine =
+      std::max(0.1, std::abs(glm::dot(geometric_normal(scene, primitive, point), direction)));
+  if (std::abs(claimed - true_t) <= tolerance.footprint_factor * footprint(view, point) / cosine)
+    return HitClass::right;
+  return claimed < true_t ? HitClass::early : HitClass::through;
+}
 
 VerdictTable judge(const ssrm::MarchResults& results, const ssrm::DepthView& depth,
                    const ssrm::ScreenRays& screen_rays, const RayStream& rays, const truth::RayTruth& truth,
@@ -62,16 +77,11 @@ VerdictTable judge(const ssrm::MarchResults& results,
             !results.distance.empty() && std::isfinite(results.distance[i])
                 ? results.distance[i]
                 : ssrm::plane_distance(surface.plane, depth, screen_rays, rays, view, i, results.pixel[i]);
-        const double true_t = truth.hits.t[i], error = std::abs(claimed - true_t);
-        const dvec3 direction(rays.direction(i));
-        const double footprint = view.view_depth(dvec3(rays.origin(i)) + claimed * direction) / view.focal();
-        const dvec3 normal =
-            geometric_normal(scene, surface.primitive, dvec3(rays.origin(i)) + claimed * direction);
-        const double cosine = std::max(0.1, std::abs(glm::dot(normal, direction)));
-        kind = error <= tolerance.footprint_factor * footprint / cosine ? HitClass::right
-               : claimed < true_t                                       ? HitClass::early
-                                                                        : HitClass::through;
-        if (error <= std::max(0.01 * true_t, 1.5 * footprint)) ++mine.right_loose;
+        const double true_t = truth.hits.t[i];
+        const dvec3 origin(rays.origin(i)), direction(rays.direction(i));
+        kind = classify_hit(view, scene, origin, direction, surface.primitive, claimed, true_t, tolerance);
+        const double loose = std::max(0.01 * true_t, 1.5 * footprint(view, origin + claimed * direction));
+        if (std::abs(claimed - true_t) <= loose) ++mine.right_loose;
       }
       mine.right += kind == HitClass::right;
       mine.phantom += kind == HitClass::phantom;

@@ -43,6 +43,11 @@ struct Tolerance {
   double footprint_factor = 1.0;  // k of |t - t*| <= k footprint / max(0.1, |cos|)
 };
 
+// What a HIT is that claims `primitive` at distance `claimed` along a ray which truly hits at `true_t`;
+// metres, infinity for no hit. `direction` has unit length.
+HitClass classify_hit(const View& view, const Scene& scene, const dvec3& origin, const dvec3& direction,
+                      uint32_t primitive, double claimed, double true_t, const Tolerance& tolerance);
+
 // Classifies every ray; a HIT lies where `results` says, else where the ray meets the plane
 // of the accepted pixel. The G-buffer must hold
 // primitives, whose normals give the cosine. If `classes` is not null it receives one entry a ray.

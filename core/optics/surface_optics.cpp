@@ -99,6 +99,7 @@ OpticsTable make_optics(const Scene& scene) {
   for (const SceneObject& object : scene.objects)
     if (object.triangle_count > 0) count_material(object.material);
   for (const AnalyticSurface& surface : scene.analytic) count_material(surface.material);
+  for (const RoundCurve& curve : scene.curves) count_material(curve.material);
   table.surfaces = SurfaceTable(scene, table.any_specular);
   return table;
 }

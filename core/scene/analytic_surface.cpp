@@ -1,5 +1,6 @@
 #include "core/scene/analytic_surface.h"
 
+#include "core/base/check.h"
 #include "core/base/error.h"
 
 #include <algorithm>
@@ -76,6 +77,13 @@ AnalyticSurface analytic_paraboloid(const std::string& name, uint32_t material, 
   return s;
 }
 
+AnalyticSurface analytic_field(const std::string& name, uint32_t material, const dvec3& center,
+                               const DistanceField& field) {
+  AnalyticSurface s = analytic_sphere(name, material, center, reach(field));
+  s.kind = Kind::field, s.field = field;
+  return s;
+}
+
 void check_surface(const AnalyticSurface& s) {
   const auto require = [&](bool condition, const char* property, double value, const char* range) {
     if (!condition)
@@ -90,6 +98,16 @@ void check_surface(const AnalyticSurface& s) {
   if (s.kind == Kind::paraboloid)
     require(s.focal_length != 0.0 && std::isfinite(s.focal_length), "focal_length", s.focal_length,
             "finite and not zero");
+  if (s.kind != Kind::field) return;
+  const DistanceField& f = s.field;
+  const bool gyroid = f.shape == DistanceField::Shape::gyroid;
+  require(f.radius > 0.0 && std::isfinite(f.radius), "its field's radius", f.radius, "positive");
+  require(f.thickness > 0.0 && std::isfinite(f.thickness), "thickness", f.thickness, "positive");
+  if (gyroid) {
+    require(f.thickness < 1.5, "thickness", f.thickness, "less than 1.5, which fills the ball");
+    require(f.period > 0.0 && std::isfinite(f.period), "period", f.period, "positive");
+  }
+  require(std::abs(glm::length(f.axis) - 1.0) < 1e-9, "the length of its axis", glm::length(f.axis), "1");
 }
 
 Bounds3 bounds(const AnalyticSurface& s) {
@@ -111,6 +129,7 @@ Bounds3 bounds(const AnalyticSurface& s) {
 double extent(const AnalyticSurface& s) {
   switch (s.kind) {
     case Kind::sphere:
+    case Kind::field:
       return 2.0 * s.radius;
     case Kind::cylinder:
       return std::max(2.0 * s.radius, s.y1 - s.y0);
@@ -136,12 +155,15 @@ LineHits line_hits(const AnalyticSurface& s, const dvec3& origin, const dvec3& d
       return filtered(roots(a, b, c, b * b - a * c),
                       [&](double t) { return glm::length(across(o + t * d)) <= s.radius; });
     }
+    case Kind::field:
+      HYBRAY_CHECK(s.kind != Kind::field);
   }
   return {};
 }
 
 std::optional<double> nearest_hit(const AnalyticSurface& s, const dvec3& origin, const dvec3& d,
                                   double t_near, double t_far) {
+  if (s.kind == Kind::field) return nearest_hit(s.field, origin - s.center, d, t_near, t_far);
   const LineHits hits = line_hits(s, origin, d);
   for (int i = 0; i < hits.count; ++i)
     if (hits.t[i] >= t_near && hits.t[i] <= t_far) return hits.t[i];
@@ -157,6 +179,8 @@ dvec3 outward_normal(const AnalyticSurface& s, const dvec3& point) {
       return glm::normalize(across(p));
     case Kind::paraboloid:
       return glm::normalize(half_gradient(s, p));
+    case Kind::field:
+      return gradient(s.field, p);
   }
   return {};
 }
@@ -178,6 +202,8 @@ dvec3 moved_onto(const AnalyticSurface& s, const dvec3& point) {
       }
       return s.center + on;
     }
+    case Kind::field:
+      return s.center + moved_onto(s.field, p);
   }
   return point;
 }

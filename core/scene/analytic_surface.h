@@ -1,8 +1,10 @@
 // Surfaces given by an equation instead of triangles, so that what is measured on them is not tessellation:
-// spheres, upright cylinders without caps, upright paraboloids of revolution. All in double, metres.
+// spheres, upright cylinders without caps, upright paraboloids of revolution, and bodies given by a distance
+// field. All in double, metres.
 #pragma once
 
 #include "core/base/vec.h"
+#include "core/scene/distance_field.h"
 
 #include <array>
 #include <cstdint>
@@ -12,7 +14,7 @@
 namespace hybray {
 
 struct AnalyticSurface {
-  enum class Kind : uint8_t { sphere, cylinder, paraboloid };
+  enum class Kind : uint8_t { sphere, cylinder, paraboloid, field };
 
   std::string name;
   uint32_t material = 0;  // into Scene::materials
@@ -22,6 +24,7 @@ struct AnalyticSurface {
   double y0 = 0.0, y1 = 0.0;  // lower and upper end of a cylinder, in world space
   double focal_length = 1.0;  // of a paraboloid: its height over the vertex is r^2 / (4 focal_length); it
                               // opens up where this is positive, down where it is negative
+  DistanceField field;        // about `center`; its own sizes are the ones that count
 };
 
 AnalyticSurface analytic_sphere(const std::string& name, uint32_t material, const dvec3& center,
@@ -31,6 +34,9 @@ AnalyticSurface analytic_cylinder(const std::string& name, uint32_t material, co
                                   double radius, double y0, double y1);
 AnalyticSurface analytic_paraboloid(const std::string& name, uint32_t material, const dvec3& vertex,
                                     double focal_length, double rim_radius);
+
+AnalyticSurface analytic_field(const std::string& name, uint32_t material, const dvec3& center,
+                               const DistanceField& field);
 
 // Throws InputError, naming the surface, for sizes that are not positive and finite.
 void check_surface(const AnalyticSurface& surface);
@@ -42,7 +48,7 @@ Bounds3 bounds(const AnalyticSurface& surface);
 double extent(const AnalyticSurface& surface);
 
 // The parameters t, ascending, at which the line origin + t direction meets the surface. The direction need
-// not have unit length.
+// not have unit length. Not for fields, which a line may meet any number of times.
 struct LineHits {
   int count = 0;
   std::array<double, 2> t{};
@@ -54,7 +60,7 @@ std::optional<double> nearest_hit(const AnalyticSurface& surface, const dvec3& o
                                   double t_near, double t_far);
 
 // Unit normal at a point of the surface, on its outer side: away from the centre of a sphere and from the
-// axis of a cylinder; on a paraboloid the convex side, away from its focus.
+// axis of a cylinder; on a paraboloid the convex side, away from its focus; out of a field's body.
 dvec3 outward_normal(const AnalyticSurface& surface, const dvec3& point);
 
 // The point of the surface (of the whole cylinder or paraboloid, ends not regarded) next to a `point` that

@@ -237,14 +237,30 @@ std::map<uint32_t, BodyFault> inside_out(const std::vector<Piece>& pieces) {
   return faults;
 }
 
-// A sphere closes by itself; the other analytic surfaces end at their rims.
+// A sphere and the body of a field close by themselves; the other analytic surfaces end at their rims.
 void add_analytic_faults(const Scene& scene, std::vector<BodyFault>& faults) {
   for (const AnalyticSurface& surface : scene.analytic) {
     const Material& m = scene.materials[surface.material];
-    if (surface.kind == AnalyticSurface::Kind::sphere || !is_interface(m)) continue;
+    if (surface.kind == AnalyticSurface::Kind::sphere || surface.kind == AnalyticSurface::Kind::field ||
+        !is_interface(m))
+      continue;
     const size_t rims = surface.kind == AnalyticSurface::Kind::cylinder ? 2 : 1;
     faults.push_back({surface.name, m.name, m.ior, rims, vec3(surface.center)});
   }
+}
+
+// Curves are open at both ends: one fault for those of a material.
+void add_curve_faults(const Scene& scene, std::vector<BodyFault>& faults) {
+  std::map<uint32_t, BodyFault> by_material;
+  for (const RoundCurve& curve : scene.curves) {
+    const Material& m = scene.materials[curve.material];
+    if (!is_interface(m)) continue;
+    const auto [at, added] = by_material.try_emplace(curve.material);
+    BodyFault& fault = at->second;
+    if (added) fault = {"curves", m.name, m.ior, 0, vec3(curve.control[0])};
+    fault.open_edges += 2;
+  }
+  for (const auto& [material, fault] : by_material) faults.push_back(fault);
 }
 
 }  // namespace
@@ -267,6 +283,7 @@ std::vector<BodyFault> find_body_faults(const Scene& scene) {
     }
   }
   add_analytic_faults(scene, all);
+  add_curve_faults(scene, all);
   return all;
 }
 

@@ -16,7 +16,7 @@ namespace hybray {
 Scene load_gltf(const std::filesystem::path& file, size_t max_triangles = size_t{1} << 28);
 
 // Writes `scene` as binary glTF (.glb) by write-and-rename: one node and primitive an object, its materials,
-// lights and cameras. Throws InputError for a scene with analytic surfaces.
+// lights and cameras. Throws InputError for a scene with analytic surfaces or curves.
 void save_gltf(const Scene& scene, const std::filesystem::path& file);
 
 }  // namespace hybray

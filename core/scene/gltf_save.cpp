@@ -227,6 +227,9 @@ void save_gltf(const Scene& scene, const std::filesystem::path& file) {
     throw InputError(file.string(),
                      fmt::format("glTF has triangles only; the analytic surface '{}' of scene '{}' has none",
                                  scene.analytic.front().name, scene.name));
+  if (!scene.curves.empty())
+    throw InputError(file.string(), fmt::format("glTF has triangles only; scene '{}' has {} curves",
+                                                scene.name, scene.curves.size()));
   const tinygltf::Model model = gltf_model(scene);
   if (model.buffers[0].data.size() > 0xf0000000u)
     throw InputError(file.string(), "the scene does not fit into the 4 GiB that binary glTF allows");

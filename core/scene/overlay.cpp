@@ -96,6 +96,8 @@ void remove_materials(Scene& scene, const JsonObject& overlay) {
       append_mesh(kept, object_mesh(scene, object), mat4(1.0f), object.material, object.name);
   for (const AnalyticSurface& surface : scene.analytic)
     if (!removed[surface.material]) append_analytic(kept, surface);
+  for (const RoundCurve& curve : scene.curves)
+    if (!removed[curve.material]) append_curve(kept, curve);
   scene = std::move(kept);
 }
 

@@ -62,6 +62,9 @@ Scene posed(const Scene& original, const Pose& pose, size_t* collapsed) {
     s.radius *= pose.scale, s.focal_length *= pose.scale;
     s.y0 = pose.scale * s.y0 + pose.offset.y, s.y1 = pose.scale * s.y1 + pose.offset.y;
   }
+  for (RoundCurve& curve : scene.curves)
+    for (vec4& c : curve.control)
+      c = vec4(point(vec3(c)), static_cast<float>(pose.scale * static_cast<double>(c.w)));
   for (Material& m : scene.materials) {
     m.absorption = vec3(dvec3(m.absorption) / pose.scale);
     m.outer_absorption = vec3(dvec3(m.outer_absorption) / pose.scale);
@@ -76,6 +79,11 @@ Scene posed(const Scene& original, const Pose& pose, size_t* collapsed) {
     for (const uint32_t v : {t.x, t.y, t.z}) scene.bounds.extend(scene.positions[v]);
   for (const AnalyticSurface& s : scene.analytic) {
     const Bounds3 box = bounds(s);
+    scene.bounds.extend(box.lower);
+    scene.bounds.extend(box.upper);
+  }
+  for (const RoundCurve& curve : scene.curves) {
+    const Bounds3 box = bounds(curve);
     scene.bounds.extend(box.lower);
     scene.bounds.extend(box.upper);
   }

@@ -1,5 +1,7 @@
 #include "core/scene/primitive_hit.h"
 
+#include "core/scene/curved_primitive.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,8 +16,8 @@ constexpr double kTripleRounding = 0x1p-49;
 }  // namespace
 
 std::optional<double> primitive_hit(const Scene& scene, uint32_t primitive, const dvec3& o, const dvec3& d) {
-  if (scene.is_analytic(primitive))
-    return nearest_hit(scene.analytic_surface(primitive), o, d, 0.0, std::numeric_limits<double>::max());
+  if (!scene.is_triangle(primitive))
+    return nearest_hit(scene, primitive, o, d, 0.0, std::numeric_limits<double>::max());
   const uvec3& tri = scene.triangles[primitive];
   const dvec3 a(scene.positions[tri.x]), e1 = dvec3(scene.positions[tri.y]) - a,
                                          e2 = dvec3(scene.positions[tri.z]) - a, s = o - a;

@@ -87,6 +87,15 @@ void append_analytic(Scene& scene, const AnalyticSurface& surface) {
   scene.bounds.extend(box.upper);
 }
 
+void append_curve(Scene& scene, const RoundCurve& curve) {
+  HYBRAY_CHECK_LT(curve.material, scene.materials.size());
+  check_curve(curve, scene.curves.size());
+  scene.curves.push_back(curve);
+  const Bounds3 box = bounds(curve);
+  scene.bounds.extend(box.lower);
+  scene.bounds.extend(box.upper);
+}
+
 Mesh object_mesh(const Scene& scene, const SceneObject& object) {
   Mesh mesh;
   if (object.triangle_count == 0) return mesh;
@@ -122,8 +131,13 @@ void update_content_hash(Scene& scene) {
                     l.outer_cone_angle, l.range);
   for (const Camera& c : scene.cameras)
     h = hash_values(hash_text(c.name, h), c.eye, c.target, c.up, c.vertical_fov);
-  for (const AnalyticSurface& s : scene.analytic)
+  for (const AnalyticSurface& s : scene.analytic) {
     h = hash_values(h, s.material, s.kind, s.center, s.radius, s.y0, s.y1, s.focal_length);
+    if (s.kind == AnalyticSurface::Kind::field)
+      h = hash_values(h, s.field.shape, s.field.radius, s.field.thickness, s.field.period, s.field.axis);
+  }
+  static_assert(sizeof(RoundCurve) == 4 * sizeof(vec4) + sizeof(uint32_t), "no padding in what is hashed");
+  if (!scene.curves.empty()) h = hash_vector(scene.curves, hash_text("curves", h));
   scene.content_hash = h;
 }
 

@@ -1,5 +1,5 @@
-// A scene, ready to be traced: all triangles in world space in one flat list, analytic surfaces beside them,
-// with materials, lights and named cameras.
+// A scene, ready to be traced: all triangles in world space in one flat list, analytic surfaces and curves
+// beside them, with materials, lights and named cameras.
 #pragma once
 
 #include "core/base/vec.h"
@@ -8,6 +8,7 @@
 #include "core/scene/light.h"
 #include "core/scene/material.h"
 #include "core/scene/mesh.h"
+#include "core/scene/round_curve.h"
 
 #include <cstdint>
 #include <string>
@@ -30,6 +31,7 @@ struct Scene {
   std::vector<uint32_t> triangle_material;  // into materials, one a triangle
   std::vector<SceneObject> objects;         // cover all triangles in order
   std::vector<AnalyticSurface> analytic;    // their primitive ids follow those of the triangles
+  std::vector<RoundCurve> curves;           // theirs follow those of the analytic surfaces
   std::vector<Material> materials;
   std::vector<Light> lights;
   std::vector<Camera> cameras;
@@ -37,15 +39,22 @@ struct Scene {
   uint64_t content_hash = 0;  // of everything above: equal scenes give equal results
 
   size_t triangle_count() const { return triangles.size(); }
-  size_t primitive_count() const { return triangles.size() + analytic.size(); }
+  size_t primitive_count() const { return first_curve() + curves.size(); }
+  size_t first_curve() const { return triangles.size() + analytic.size(); }  // its primitive id
 
-  // Of a primitive id: whether it is an analytic surface, that surface, and the material of any primitive.
-  bool is_analytic(uint32_t primitive) const { return primitive >= triangles.size(); }
+  // Of a primitive id: what it is, the surface or curve of one that is no triangle
+  // (core/scene/curved_primitive.h treats them alike), and the material of any primitive.
+  bool is_triangle(uint32_t primitive) const { return primitive < triangles.size(); }
+  bool is_analytic(uint32_t primitive) const { return !is_triangle(primitive) && !is_curve(primitive); }
+  bool is_curve(uint32_t primitive) const { return primitive >= first_curve(); }
   const AnalyticSurface& analytic_surface(uint32_t primitive) const {
     return analytic[primitive - triangles.size()];
   }
+  const RoundCurve& curve(uint32_t primitive) const { return curves[primitive - first_curve()]; }
   uint32_t material_of(uint32_t primitive) const {
-    return is_analytic(primitive) ? analytic_surface(primitive).material : triangle_material[primitive];
+    return is_triangle(primitive) ? triangle_material[primitive]
+           : is_curve(primitive)  ? curve(primitive).material
+                                  : analytic_surface(primitive).material;
   }
   // Whether parts of a triangle are cut out.
   bool is_cut_out(uint32_t triangle) const {
@@ -64,6 +73,9 @@ void append_mesh(Scene& scene, const Mesh& mesh, const mat4& transform, uint32_t
 
 // Appends an analytic surface, whose material must be there. Throws as check_surface does.
 void append_analytic(Scene& scene, const AnalyticSurface& surface);
+
+// Appends a curve, whose material must be there. Throws as check_curve does.
+void append_curve(Scene& scene, const RoundCurve& curve);
 
 // The triangles of one object as a mesh of its own, with the vertices that they use, in the scene's order.
 Mesh object_mesh(const Scene& scene, const SceneObject& object);

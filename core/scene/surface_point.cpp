@@ -1,5 +1,7 @@
 #include "core/scene/surface_point.h"
 
+#include "core/scene/curved_primitive.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -16,19 +18,18 @@ double curvature_radius(const AnalyticSurface& surface) {
                                                            : surface.radius;
 }
 
-SurfacePoint analytic_point(const AnalyticSurface& surface, uint32_t primitive, const dvec3& hit,
-                            LeavingOffset leaving) {
+SurfacePoint curved_point(const Scene& scene, uint32_t primitive, const dvec3& hit, LeavingOffset leaving) {
   SurfacePoint p;
   p.primitive = primitive;
-  p.position = moved_onto(surface, hit);
-  p.geometric_normal = outward_normal(surface, p.position);
+  p.position = moved_onto(scene, primitive, hit);
+  p.geometric_normal = outward_normal(scene, primitive, p.position);
   p.shading_normal = p.geometric_normal;
-  p.material = surface.material;
-  const double all = std::max(largest(p.position), extent(surface));
+  p.material = scene.material_of(primitive);
+  const double all = std::max(largest(p.position), extent(scene, primitive));
   p.offset = kSurfaceOffset * all;
-  if (leaving == LeavingOffset::along_normal) {
+  if (leaving == LeavingOffset::along_normal && scene.is_analytic(primitive)) {
     // Rounding along the surface by e leaves it by e^2 / (2 r); e is at most 2^-24 sqrt(3) of a coordinate.
-    const double bend = 0x1p-25 * all * all / curvature_radius(surface);
+    const double bend = 0x1p-25 * all * all / curvature_radius(scene.analytic_surface(primitive));
     p.offset = kNormalOffset * std::max(glm::dot(glm::abs(p.geometric_normal), glm::abs(p.position)) + bend,
                                         kLeastOfPosition * all);
   }
@@ -46,8 +47,7 @@ double leaving_offset(const dvec3& position, const dvec3& normal, const dvec3& r
 
 SurfacePoint surface_point(const Scene& scene, uint32_t primitive, float u, float v, const dvec3& hit,
                            LeavingOffset leaving) {
-  if (scene.is_analytic(primitive))
-    return analytic_point(scene.analytic_surface(primitive), primitive, hit, leaving);
+  if (!scene.is_triangle(primitive)) return curved_point(scene, primitive, hit, leaving);
   const uvec3& tri = scene.triangles[primitive];
   const dvec3 a(scene.positions[tri.x]), b(scene.positions[tri.y]), c(scene.positions[tri.z]);
   const dvec3 ab = b - a, ac = c - a;
@@ -65,8 +65,8 @@ SurfacePoint surface_point(const Scene& scene, uint32_t primitive, float u, floa
 }
 
 dvec3 geometric_normal(const Scene& scene, uint32_t primitive, const dvec3& point) {
-  return scene.is_analytic(primitive) ? outward_normal(scene.analytic_surface(primitive), point)
-                                      : geometric_normal(scene, primitive);
+  return scene.is_triangle(primitive) ? geometric_normal(scene, primitive)
+                                      : outward_normal(scene, primitive, point);
 }
 
 }  // namespace hybray

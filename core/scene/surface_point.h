@@ -1,5 +1,5 @@
-// The point where a ray met a surface: what shading needs to know of it, for triangles and analytic surfaces
-// alike.
+// The point where a ray met a surface: what shading needs to know of it, for triangles, analytic surfaces and
+// curves alike.
 #pragma once
 
 #include "core/scene/scene.h"
@@ -36,7 +36,7 @@ struct SurfacePoint {
 };
 
 // The point of `primitive` that a ray met at `hit`. For a triangle, (u, v) are the barycentric weights of its
-// second and third vertex and place the point; for an analytic surface `hit`, moved onto the surface, does.
+// second and third vertex and place the point; for any other primitive `hit`, moved onto its surface, does.
 SurfacePoint surface_point(const Scene& scene, uint32_t primitive, float u, float v, const dvec3& hit,
                            LeavingOffset leaving = LeavingOffset::largest);
 

@@ -1,6 +1,7 @@
 #include "core/ssrm/confirm_hits.h"
 
 #include "core/base/parallel.h"
+#include "core/scene/curved_primitive.h"
 
 #include <algorithm>
 #include <array>
@@ -47,7 +48,11 @@ uint64_t confirm_late_hits(const LayeredView& view, const View& main, const Scen
         const uint32_t primitive = view.primitive_of(
             layer, static_cast<size_t>(q.y) * static_cast<size_t>(width) + static_cast<size_t>(q.x));
         if (primitive == kNoPrimitive) return false;
-        if (scene.is_analytic(primitive)) return q == p;
+        if (scene.is_curve(primitive))
+          return nearest_hit(scene, primitive, o, d, (1.0 - kConfirmed) * claimed,
+                             (1.0 + kConfirmed) * claimed)
+              .has_value();
+        if (!scene.is_triangle(primitive)) return q == p;
         return std::abs(meets(scene, primitive, o, d) - claimed) <= kConfirmed * claimed;
       };
       bool confirmed = met(p, results.layer[i]);

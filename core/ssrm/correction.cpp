@@ -51,7 +51,10 @@ Correction correct(const DepthView& view, const ScreenRay<double>& ray, ivec2 pi
   };
   const SlantedTest here = slanted_test(view, ray, pixel.x, pixel.y);
   if (here.passes()) return {Verdict::hit, index(pixel)};
-  if (previous != origin && slanted_test(view, ray, previous.x, previous.y).passes())
+  // A ray that does not start in its own pixel may have been beside the screen.
+  const bool inside =
+      previous.x >= 0 && previous.y >= 0 && previous.x < view.width() && previous.y < view.height();
+  if (inside && previous != origin && slanted_test(view, ray, previous.x, previous.y).passes())
     return {Verdict::hit, index(previous)};
   return {here.enters_in_front ? Verdict::correction : Verdict::behind, kNoPixel};
 }

@@ -69,7 +69,10 @@ HWY_INLINE void correct_stopped(const DepthView& view, const WaveJob& job, March
     const VHI qx = previous(job.rays.ox, job.rays.dx, index, x, l);
     const VHI qy = previous(job.rays.oy, job.rays.dy, index, y, l);
     const MHI is_origin = hn::Eq(hn::Add(hn::Mul(qy, width), qx), hn::GatherIndex(di, pixels, index));
-    const MHI asks = hn::AndNot(hn::Or(hit, is_origin), stopped);
+    // A ray that does not start in its own pixel may have been beside the screen.
+    const MHI inside = hn::AndNot(hn::Lt(hn::Or(qx, qy), hn::Zero(di)),
+                                  hn::And(hn::Lt(qx, width), hn::Lt(qy, hn::Set(di, view.height()))));
+    const MHI asks = hn::And(inside, hn::AndNot(hn::Or(hit, is_origin), stopped));
     if (!hn::AllFalse(di, asks)) {
       const PixelGap before = pixel_gap(view, ray, hn::IfThenElse(asks, qx, x), hn::IfThenElse(asks, qy, y));
       const MHI passes = narrow(hn::And(hn::Le(before.enter, zero), hn::Ge(before.leave, zero)));

@@ -37,7 +37,8 @@ PixelCrossing pixel_crossing(const DepthView& view, const ScreenRay<double>& ray
                            std::abs(static_cast<double>(slope.x)) + std::abs(static_cast<double>(slope.y));
   const double tolerance = kBufferRounding * magnitude;
   if (gap.at(enter) > tolerance) return PixelCrossing::behind;
-  return gap.at(leave) > tolerance ? PixelCrossing::hit : PixelCrossing::in_front;
+  if (gap.at(leave) <= tolerance) return PixelCrossing::in_front;
+  return gap.at(enter) > 0.0 ? PixelCrossing::behind : PixelCrossing::hit;
 }
 
 Correction continue_plane_ray(const DepthView& view, const ScreenRay<float>& ray, const PlaneMarch& from,

@@ -22,7 +22,8 @@ inline float origin_with_slack(float oz) {
 }
 
 // Neighbouring pixels of one plane, whose depths and slopes are rounded to float, meet within that share of
-// their sum.
+// their sum. By less than that a ray is not known to be behind a plane; nor is it known in which pixel it met
+// a plane that it was behind by less where it came in: then it is UNKNOWN (`behind`), not a HIT.
 inline constexpr double kBufferRounding = 0x1p-22;
 
 // Where a ray is with respect to the plane of one pixel while it is inside that pixel. In double, from the

@@ -54,7 +54,9 @@ HWY_INLINE void look_closer(const DepthView& view, const ScreenRays& rays, March
     const RayDouble ray(rays, at(reinterpret_cast<const int32_t*>(ended.ray.data())));
     const PixelGap gap = pixel_gap(view, ray, at(ended.x.data()), at(ended.y.data()));
     const VD tolerance = hn::Mul(hn::Set(d, kBufferRounding), gap.magnitude);
-    const MHI behind = narrow(hn::Gt(gap.enter, tolerance)), leaves = narrow(hn::Gt(gap.leave, tolerance));
+    const auto leaves_behind = hn::Gt(gap.leave, tolerance);
+    const MHI behind = narrow(hn::Gt(gap.enter, hn::IfThenZeroElse(leaves_behind, tolerance))),
+              leaves = narrow(leaves_behind);
     const VHI in_front = hn::IfThenElse(leaves, hn::Set(di, kHit), hn::Set(di, kCleared));
     const VHI found = hn::IfThenElse(behind, hn::Set(di, kBehind), in_front);
     hn::StoreU(hn::IfThenElse(stopped, found, how), di, &ended.how[i]);

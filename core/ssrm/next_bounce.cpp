@@ -4,6 +4,7 @@
 #include "core/base/parallel.h"
 #include "core/base/ray_compaction.h"
 #include "core/gbuffer/facing_surface.h"
+#include "core/scene/curved_primitive.h"
 #include "core/scene/surface_point.h"
 
 #include <atomic>
@@ -16,14 +17,14 @@ namespace {
 
 // Point of a primitive next to `p`.
 dvec3 onto_primitive(const Scene& scene, uint32_t primitive, const dvec3& p) {
-  if (scene.is_analytic(primitive)) return moved_onto(scene.analytic_surface(primitive), p);
+  if (!scene.is_triangle(primitive)) return moved_onto(scene, primitive, p);
   const dvec3 n = geometric_normal(scene, primitive), a(scene.positions[scene.triangles[primitive].x]);
   return p - glm::dot(p - a, n) * n;
 }
 
 // Shading normal of a primitive at a point on it.
 dvec3 shading_normal_at(const Scene& scene, uint32_t primitive, const dvec3& p) {
-  if (scene.is_analytic(primitive)) return surface_point(scene, primitive, 0.0f, 0.0f, p).shading_normal;
+  if (!scene.is_triangle(primitive)) return surface_point(scene, primitive, 0.0f, 0.0f, p).shading_normal;
   const uvec3& tri = scene.triangles[primitive];
   const dvec3 a(scene.positions[tri.x]), ab = dvec3(scene.positions[tri.y]) - a,
                                          ac = dvec3(scene.positions[tri.z]) - a;
@@ -44,8 +45,11 @@ std::optional<uint32_t> pixel_that_shows(const GBuffer& g, const Scene& scene, u
   if (g.primitive(x, y) != primitive) return {};
   // Of a curved surface the pixel may show the near side and `p` lie on the far one.
   constexpr double kSameDepth = 1e-3;
-  if (scene.is_analytic(primitive) &&
+  if (!scene.is_triangle(primitive) &&
       std::abs(g.view.view_depth_of(static_cast<double>(g.depth(x, y))) - w) > kSameDepth * w)
+    return {};
+  // Of a curve, its two sides may be nearer together than that.
+  if (scene.is_curve(primitive) && glm::dot(outward_normal(scene, primitive, p), p - g.view.eye()) > 0.0)
     return {};
   return g.view.pixel_index(x, y);
 }

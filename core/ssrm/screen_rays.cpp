@@ -40,7 +40,7 @@ ScreenRays project_rays(const RayStream& rays, const View& view, const Bounds3& 
       const dvec3 o(rays.origin(i)), d(rays.direction(i));
       const double w0 = view.view_depth(o), w1 = glm::dot(d, view.forward()), k = w1 / w0;
       const dvec2 p = view.project(o);
-      const dvec2 center(0.5 * view.width(), 0.5 * view.height());
+      const dvec2 center = view.center();
       const double scale = view.focal() / w0;
       out.ox[i] = static_cast<float>(p.x);
       out.oy[i] = static_cast<float>(p.y);

@@ -100,7 +100,7 @@ class Tracer {
 
   // The same for the surfaces behind those that were hit before: nearest hits with t in [t_near of its lane,
   // t_far] on primitives that the lane has not passed yet, so that coincident surfaces all have their turn.
-  // Analytic surfaces are always hit. Needs Config::layers.
+  // Analytic surfaces are always hit, curves once. Needs Config::layers.
   void next_hits16(const vec3& origin, const vec3* directions, int count, const float* t_near, float t_far,
                    const PassedPrimitives* passed, Hit* hits) const;
 

@@ -1,6 +1,7 @@
 #include "core/base/check.h"
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "core/tracer/curve_geometry.h"
 #include "core/tracer/cut_out_filter.h"
 #include "core/tracer/embree_filter.h"
 #include "core/tracer/embree_query.h"
@@ -125,6 +126,10 @@ Tracer::Tracer(const Scene& scene, const Config& config) : impl_(std::make_uniqu
 
   if (!scene.triangles.empty()) impl_->attach_triangles();
   if (!scene.analytic.empty()) embree::attach_analytic_surfaces(impl_->device, impl_->rtc, scene);
+  if (!scene.curves.empty()) {
+    embree::attach_curves(impl_->device, impl_->rtc, scene);
+    impl_->check("allocate the curves");
+  }
   rtcCommitScene(impl_->rtc);
   impl_->check("build the acceleration structure");
 }

@@ -27,12 +27,14 @@ void follow(const Tracer& tracer, const View& view, const HitStream& hits, int l
     Sights next;
     for (int i = 0; i < sights.count; ++i) {
       const size_t ray = sights.ray[i];
-      if (!met[i].valid() || met[i].primitive == hits.primitive[ray] ||
+      const bool same = met[i].primitive == hits.primitive[ray];
+      if (!met[i].valid() || (same && !tracer.scene().is_curve(met[i].primitive)) ||
           met[i].t >= sights.depth[i] * (1.0 - kVisibilityTolerance)) {
         result[ray] = static_cast<uint8_t>(layer);
         continue;
       }
       if (tracer.scene().is_analytic(met[i].primitive)) continue;  // no layer lies behind it
+      if (same) continue;  // the far side of a curve, which no layer holds
       const int n = next.count++;
       next.ray[n] = ray, next.depth[n] = sights.depth[i], next.direction[n] = sights.direction[i];
       next.t_near[n] = met[i].t * (1.0f - 0x1p-18f);

@@ -63,8 +63,10 @@ ssrm::Correction march_level0_ray(const ssrm::DepthView& view, const ssrm::Scree
     if (!at_origin && marcher == ssrm::Marcher::plane) {
       const PixelPassage p = pass_pixel(view, exact, walk.px, walk.py);
       if (record(log, p.enter, p.tolerance, p.magnitude) > 0) return {ssrm::Verdict::behind, ssrm::kNoPixel};
-      if (record(log, p.leave, p.tolerance, p.magnitude) > 0)
+      if (record(log, p.leave, p.tolerance, p.magnitude) > 0) {
+        if (record(log, p.enter, 0.0, p.magnitude) > 0) return {ssrm::Verdict::behind, ssrm::kNoPixel};
         return {ssrm::Verdict::hit, static_cast<uint32_t>(walk.py * width + walk.px)};
+      }
     } else if (!at_origin) {
       const Real leave = ends ? ray.l_end : exit.l();
       const Real farthest = std::max(ray.rise(walk.l), ray.rise(leave));

@@ -13,7 +13,9 @@ bool seen_from_eye(const Tracer& tracer, const View& view, const dvec3& point, u
   // Along a direction of unit view depth, distances are view depths; the view begins at its near plane.
   const vec3 direction((point - view.eye()) / w);
   const Hit first = tracer.intersect(vec3(view.eye()), direction, static_cast<float>(view.near()));
-  return !first.valid() || first.primitive == primitive || first.t >= w * (1.0 - kVisibilityTolerance);
+  // A triangle hides no part of itself.
+  return !first.valid() || (first.primitive == primitive && tracer.scene().is_triangle(primitive)) ||
+         first.t >= w * (1.0 - kVisibilityTolerance);
 }
 
 }  // namespace

@@ -45,6 +45,9 @@ std::string shape_words(const AnalyticSurface& s) {
     case AnalyticSurface::Kind::paraboloid:
       return fmt::format("upright paraboloid of focal length {:.4g} m and rim radius {:.4g} m, vertex at {}",
                          s.focal_length, s.radius, numbers(s.center));
+    case AnalyticSurface::Kind::field:
+      return fmt::format("{} within {:.4g} m about {}, by its distance field", label(s.field.shape), s.radius,
+                         numbers(s.center));
   }
   return "";
 }
@@ -69,6 +72,7 @@ int scene_info_command(const Environment& environment, const std::string& name) 
   const Scene scene = load_scene(environment.scene_paths, name);
   fmt::print("scene      {}\n", name);
   fmt::print("triangles  {}\n", scene.triangle_count());
+  if (!scene.curves.empty()) fmt::print("curves     {}\n", scene.curves.size());
   fmt::print("vertices   {}\n", scene.positions.size());
   fmt::print("objects    {}\n", scene.objects.size());
   fmt::print("materials  {}\n", scene.materials.size());

@@ -65,6 +65,16 @@ Surfaces specular_surfaces(const Scene& scene) {
     surfaces.boxes.push_back(bounds(surface));
     add_box(surfaces.facets, surfaces.boxes.back());
   }
+  Bounds3 curves;
+  for (const RoundCurve& curve : scene.curves) {
+    if (!is_specular(curve.material)) continue;
+    const Bounds3 box = bounds(curve);
+    curves.extend(box.lower), curves.extend(box.upper);
+  }
+  if (!curves.empty()) {
+    surfaces.boxes.push_back(curves);
+    add_box(surfaces.facets, curves);
+  }
   return surfaces;
 }
 

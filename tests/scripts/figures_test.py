@@ -134,7 +134,7 @@ class Figures(unittest.TestCase):
         self.assertIn("made     ssrm_tables: ssrm_tables (txt, tex)\n", done.stdout)
         self.assertIn(f"skipped  caustics_lights: no caustics_lights.csv in {self.root}\n", done.stdout)
         self.assertIn("skipped  ssrm_verdicts: no pictures beside", done.stdout)
-        self.assertEqual(len(re.findall(r"^(made|skipped) ", done.stdout, re.MULTILINE)), 18)
+        self.assertEqual(len(re.findall(r"^(made|skipped) ", done.stdout, re.MULTILINE)), 19)
         self.assertFalse(list((self.root / "figures").glob("caustics*")))
 
     def test_names_file_and_column_and_draws_the_others(self):

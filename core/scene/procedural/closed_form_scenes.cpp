@@ -1,14 +1,12 @@
 #include "core/scene/procedural/closed_form_scenes.h"
 
-#include "core/base/error.h"
 #include "core/scene/procedural/closed_form_parts.h"
+#include "core/scene/procedural/exact_scene.h"
 
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
-
-#include <fmt/format.h>
 
 namespace hybray::procedural {
 namespace {
@@ -141,17 +139,6 @@ Scene scene_of(const Furnace& c) {
 template <class Case>
 Scene standard() {
   return scene_of(Case{});
-}
-
-template <Scene (*make)()>
-Scene exact(const Parameters& parameters) {
-  Scene scene = make();
-  if (parameters.triangles != 0 && parameters.triangles != scene.triangle_count())
-    throw InputError("generator " + scene.name,
-                     fmt::format("cannot make {} triangles; its form is exact and has {}",
-                                 parameters.triangles, scene.triangle_count()));
-  update_content_hash(scene);
-  return scene;
 }
 
 template <class Case>

@@ -1,6 +1,8 @@
 #include "core/scene/procedural/generators.h"
 
 #include "core/scene/procedural/closed_form_scenes.h"
+#include "core/scene/procedural/corner.h"
+#include "core/scene/procedural/exact_scene.h"
 
 #include <algorithm>
 #include <array>
@@ -10,19 +12,23 @@
 namespace hybray::procedural {
 
 std::span<const Generator> generators() {
-  static constexpr std::array<Generator, 11> kGenerators{{
+  static constexpr std::array<Generator, 14> kGenerators{{
       {"atrium", "two-storey colonnaded hall with arches, vaults, drapes and a gallery, 30 m long",
        uint32_t{1} << 18, atrium},
       {"atrium_lamps", "the atrium by night, with 8 lamps in sight and 8 out of it, by glass and metal",
        uint32_t{3} << 17, atrium_lamps},
+      {"corner", "a floor before a wall, with a few blocks: large flat faces only", 36, exact<corner>, true},
       {"foliage", "clearing among trees, bushes and ferns whose leaves are cut out by masks",
        uint32_t{3} << 17, foliage},
       {"glass_ball", "solid glass ball above a matte floor, with a point light", uint32_t{1} << 15,
        glass_ball},
+      {"meadow", "meadow with a pond, whose grass and reeds are curves", uint32_t{3} << 16, meadow},
       {"metal_ring", "polished gold and silver rings on a table", uint32_t{1} << 15, metal_ring},
       {"mirror_and_floor", "plane mirrors that throw a patch of light and show a glass ball's caustic",
        uint32_t{1} << 15, mirror_and_floor},
       {"prism", "solid glass prism in a narrow beam", uint32_t{1} << 13, prism},
+      {"sculptures", "court with rings, gyroids and melted balls given by distance fields", uint32_t{1} << 14,
+       sculptures},
       {"sphere", "a sphere in a small walled court", uint32_t{1} << 10, sphere},
       {"street", "town street with facades, awnings, a square and many small objects, 90 m long",
        uint32_t{1} << 20, street},

@@ -12,7 +12,7 @@ namespace hybray::procedural {
 
 struct Parameters {
   uint32_t triangles =
-      0;  // wanted number of triangles, met to within a few per cent; 0 = the generator's own default
+      0;  // wanted number of triangles (and curves), met to within a few per cent; 0 = its own default
   uint32_t seed = 1;  // of everything that varies at random
 };
 
@@ -32,7 +32,9 @@ Scene atrium(const Parameters& parameters);
 Scene street(const Parameters& parameters);
 
 // Geometry on which a ray is dear.
-Scene foliage(const Parameters& parameters);  // leaves cut out by masks
+Scene foliage(const Parameters& parameters);     // leaves cut out by masks
+Scene meadow(const Parameters& parameters);      // grass and reeds as curves
+Scene sculptures(const Parameters& parameters);  // bodies given by distance fields
 
 // Scenes made for caustics: matte ground that light through glass and water, or off metal, is thrown on. All
 // bodies close.

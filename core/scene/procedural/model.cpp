@@ -13,7 +13,7 @@ constexpr uint32_t kMostTriangles = uint32_t{1} << 27;
 size_t count(void (*layout)(Model&), double level, double fill, uint64_t seed) {
   Model model(level, fill, seed, true);
   layout(model);
-  return model.triangle_count();
+  return model.primitive_count();
 }
 
 // Largest value in [low, high) whose count is at most `wanted`, by bisection of its logarithm; count(low)
@@ -45,6 +45,15 @@ void Model::add(MeshBuilder&& part, uint32_t material, const std::string& name, 
   count_ += part.triangle_count();
   if (!counting_ && part.triangle_count() > 0)
     append_mesh(scene_, part.take(), mat4(transform), material, name);
+}
+
+void Model::curve(const RoundCurve& curve) {
+  ++count_;
+  append_curve(scene_, curve);
+}
+
+void Model::surface(const AnalyticSurface& surface) {
+  if (!counting_) append_analytic(scene_, surface);
 }
 
 void Model::camera(const std::string& name, const vec3& eye, const vec3& target, float vertical_fov) {

@@ -67,10 +67,18 @@ class Model {
   void add(MeshBuilder&& part, uint32_t material, const std::string& name,
            const dmat4& transform = dmat4(1.0));
 
+  // Adds a curve; none while counting, when count_curves() says how many there would be. A curve counts like
+  // a triangle.
+  void curve(const RoundCurve& curve);
+  void count_curves(size_t curves) { count_ += curves; }
+
+  // Adds an analytic surface, which counts as none.
+  void surface(const AnalyticSurface& surface);
+
   void light(const Light& light) { scene_.lights.push_back(light); }
   void camera(const std::string& name, const vec3& eye, const vec3& target, float vertical_fov);
 
-  size_t triangle_count() const { return count_; }
+  size_t primitive_count() const { return count_; }
   Scene take() { return std::move(scene_); }
 
  private:

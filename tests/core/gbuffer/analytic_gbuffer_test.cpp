@@ -2,6 +2,7 @@
 #include "core/gbuffer/gbuffer.h"
 #include "core/gbuffer/reflection_rays.h"
 #include "core/gbuffer/triangle_plane.h"
+#include "tests/core/field_truth.h"
 #include "tests/core/test_scenes.h"
 
 #include <gtest/gtest.h>
@@ -111,6 +112,53 @@ TEST(AnalyticGBuffer, ALineOfSightBesideTheSurfaceHasAPointAndNoPlane) {
   EXPECT_FALSE(std::isfinite(tangent_plane(view, scene, 2, 0.5, 0.5).inverse_w));
   const dvec3 p = seen_point(view, scene, 2, 0.5, 0.5);
   EXPECT_NEAR(glm::length(p - kCenter), kRadius, 1e-12);
+}
+
+TEST(AnalyticGBuffer, AFieldHasTheDepthAndSlopeOfItsFirstZero) {
+  using Shape = DistanceField::Shape;
+  for (const DistanceField& field :
+       {DistanceField{.shape = Shape::torus, .radius = 1.0, .thickness = 0.3, .axis = {0.6, 0.8, 0}},
+        DistanceField{.shape = Shape::gyroid, .radius = 1.2, .thickness = 0.4, .period = 1.1},
+        DistanceField{.shape = Shape::blob, .radius = 1.2, .thickness = 0.3}}) {
+    Scene scene = test::empty_scene();
+    scene.materials.push_back({});
+    test::add_rectangle(scene, vec3(-5, -2, 5), vec3(10, 0, 0), vec3(0, 0, -10));
+    append_analytic(scene, analytic_field("body", 1, kCenter, field));
+    const Tracer tracer(scene, {.robust = true});
+    const View view(Camera{"c", vec3(0.5f, 1, 4), vec3(0.25f, 0.5f, -1)},
+                    {.width = 83, .height = 57, .near = 0.5}, scene.bounds);
+    const GBuffer g = make_gbuffer(tracer, view, kAll);
+    const auto depth_at = [&](double px, double py) {
+      const dvec3 o = view.eye() - kCenter, d = view.ray_direction(px, py);
+      const double length = glm::length(d);
+      const auto t = test::first_sign_change([&](double a) { return value(field, o + a * (d / length)); },
+                                             0.5, 12.0, 1.0 + 1e-6, 1e-10, false);
+      return t ? std::optional(*t / length) : std::nullopt;
+    };
+    int seen = 0, other = 0, sloped = 0, bent = 0;
+    for (int y = 0; y < 57; ++y)
+      for (int x = 0; x < 83; ++x) {
+        const auto w = depth_at(x + 0.5, y + 0.5);
+        if (w.has_value() != (g.material(x, y) == 1u)) {
+          ++other;
+          continue;
+        }
+        if (!w) continue;
+        ++seen;
+        EXPECT_NEAR(g.depth(x, y), view.device_depth(*w), 6e-8) << label(field.shape) << x << " " << y;
+        constexpr double kH = 2e-3;
+        const auto left = depth_at(x + 0.5 - kH, y + 0.5), right = depth_at(x + 0.5 + kH, y + 0.5);
+        const dvec3 ray = glm::normalize(view.ray_direction(x + 0.5, y + 0.5));
+        if (!left || !right || std::abs(glm::dot(ray, dvec3(g.geometric_normal(x, y)))) < 0.5) continue;
+        const double slope = (view.device_depth(*right) - view.device_depth(*left)) / (2 * kH);
+        ++sloped;
+        bent += std::abs(g.depth_derivatives(x, y).x - slope) > 1e-4 * std::abs(slope) + 1e-7;
+      }
+    EXPECT_GT(seen, 150) << label(field.shape);
+    EXPECT_GT(sloped, 80) << label(field.shape);
+    EXPECT_LE(other, 1) << label(field.shape);
+    EXPECT_LE(bent, sloped / 100) << label(field.shape) << ": pixels on a crease";
+  }
 }
 
 }  // namespace

@@ -48,6 +48,16 @@ TEST(View, ProjectsThePointsOfItsOwnRays) {
     }
 }
 
+TEST(View, JitterMovesThePictureOnTheScreenAndNothingElse) {
+  const View still = make(DepthConvention::reversed);
+  const View moved(kCamera, {.width = 640, .height = 360, .far = 100.0, .jitter = {0.25, -0.5}}, kBounds);
+  const dvec3 p(2, 1, -4);
+  EXPECT_NEAR(glm::distance(moved.project(p), still.project(p) + dvec2(0.25, -0.5)), 0.0, 1e-10);
+  EXPECT_EQ(moved.ray_direction(100.25, 49.5), still.ray_direction(100.0, 50.0));
+  EXPECT_EQ(moved.view_depth(p), still.view_depth(p));
+  EXPECT_EQ(moved.with_margin(8, 16).ray_direction(108.25, 65.5), still.ray_direction(100.0, 50.0));
+}
+
 TEST(View, LooksAlongItsAxisWithUpAboveAndTheAskedForAngle) {
   const View view = make(DepthConvention::reversed);
   const dvec2 target = view.project(dvec3(kCamera.target));

@@ -103,6 +103,33 @@ TEST_P(MarchLanes, AListMarchesItsRaysAsTheFullMarchDoesAndTouchesNoOther) {
   }
 }
 
+// Rays whose origin has been rounded away from their own pixel, as far from the world's origin: whatever they
+// find, it is on the screen, and the same in lanes.
+TEST_P(MarchLanes, RaysThatStartBesideTheirPixelStayOnTheScreen) {
+  const Scene scene = test::triangle_soup(300, 1.0f, 2.0f, 21);
+  const Tracer tracer(scene, {.robust = true});
+  test::MainView v(tracer, View(Camera{"c", vec3(0, 0.5f, 3), vec3(0)},
+                                {.width = 61, .height = 37, .near = 0.5}, scene.bounds));
+  constexpr uint64_t kSeed = 6;
+  for (size_t i = 0; i < v.rays.size(); ++i) {
+    v.screen_rays.ox[i] += static_cast<float>(200.0 * random_unit(i, 0, 0, kSeed) - 100.0);
+    v.screen_rays.oy[i] += static_cast<float>(200.0 * random_unit(i, 1, 0, kSeed) - 100.0);
+  }
+  MarchOptions options{.marcher = GetParam().marcher, .ascent = GetParam().ascent};
+  const MarchResults scalar = v.march(options);
+  for (size_t i = 0; i < scalar.size(); ++i) {
+    if (scalar.verdict[i] != Verdict::hit) continue;
+    ASSERT_LT(scalar.pixel[i], 61u * 37u);
+    EXPECT_NE(v.gbuffer.primitive[scalar.pixel[i]], kNoPrimitive) << "a background pixel is not a HIT";
+  }
+  options.code = MarchCode::lanes;
+  for (const std::string& target : lanes_targets()) {
+    use_lanes_target(target);
+    expect_same(v.march(options), scalar, target);
+  }
+  use_lanes_target("");
+}
+
 INSTANTIATE_TEST_SUITE_P(Marchers, MarchLanes, testing::ValuesIn(kKinds),
                          [](const auto& test) { return std::string(test.param.name); });
 

@@ -1,7 +1,9 @@
 // Analytic surfaces through the tracer, against intersections in double that are written out here.
 #include "core/base/hash.h"
+#include "core/scene/primitive_hit.h"
 #include "core/scene/surface_point.h"
 #include "core/tracer/tracer.h"
+#include "tests/core/field_truth.h"
 #include "tests/core/test_scenes.h"
 
 #include <array>
@@ -173,6 +175,93 @@ TEST(UserGeometry, ARayThatLeavesASurfacePointDoesNotMeetItAgain) {
       EXPECT_NEAR(next.t, chord, 1e-3) << i;
     }
   }
+}
+
+// Two triangles and a ball among bodies of each kind of field.
+Scene fields() {
+  using Shape = DistanceField::Shape;
+  Scene scene = test::empty_scene();
+  test::add_rectangle(scene, vec3(-2, -1.5f, 2), vec3(4, 0, 0), vec3(0, 0, -4));
+  append_analytic(scene, analytic_sphere("ball", 0, {0.9, 0.9, 0.0}, 0.3));
+  append_analytic(
+      scene,
+      analytic_field("ring", 0, {-0.7, 0.2, 0.3},
+                     {.shape = Shape::torus, .radius = 0.5, .thickness = 0.15, .axis = {0.6, 0, 0.8}}));
+  append_analytic(scene,
+                  analytic_field("sheet", 0, {0.7, -0.6, -0.4},
+                                 {.shape = Shape::gyroid, .radius = 0.6, .thickness = 0.3, .period = 0.5}));
+  append_analytic(scene, analytic_field("figure", 0, {-0.4, -0.5, -0.8},
+                                        {.shape = Shape::blob, .radius = 0.6, .thickness = 0.15}));
+  return scene;
+}
+
+TEST(UserGeometry, AllModesMeetFieldsWhereSubdivisionByTheirBoundDoes) {
+  const Scene scene = fields();
+  constexpr size_t kRays = 3001;
+  const auto rays = std::make_unique<RayBatch<kRays>>();
+  std::vector<std::pair<double, uint32_t>> truth(kRays, {kNone, kNoPrimitive});
+  for (size_t i = 0; i < kRays; ++i) {
+    const auto unit = [&](uint32_t d) { return 2.0 * random_unit(i, d, 8, kSeed) - 1.0; };
+    const dvec3 from = 1.6 * dvec3(unit(0), unit(1), unit(2)), to = dvec3(unit(3), unit(4), unit(5));
+    rays->set(i, vec3(from), vec3(glm::normalize(to - from)));
+    const dvec3 o(rays->origin(i)), d(rays->direction(i));
+    for (uint32_t p = 0; p < scene.primitive_count(); ++p) {
+      std::optional<double> t;
+      if (p < 3) {
+        t = primitive_hit(scene, p, o, d);
+      } else {
+        const AnalyticSurface& s = scene.analytic_surface(p);
+        t = test::first_sign_change([&](double a) { return value(s.field, o + a * d - s.center); }, 0.0, 6.0,
+                                    1.0 + 1e-6, 1e-9, value(s.field, o - s.center) < 0.0);
+      }
+      if (t && *t < truth[i].first) truth[i] = {*t, p};
+    }
+  }
+  for (const bool robust : {false, true}) {
+    const Tracer tracer(scene, {.robust = robust});
+    for (const TraceMode mode : kAllTraceModes) {
+      const auto hits = std::make_unique<HitBatch<kRays>>();
+      tracer.intersect_batch(rays->lanes(), kRays, hits->lanes(), mode);
+      int differ = 0, met = 0;
+      for (size_t i = 0; i < kRays; ++i) {
+        const auto& [t, primitive] = truth[i];
+        if ((*hits)[i].primitive != primitive) {
+          ++differ;
+          continue;
+        }
+        met += primitive != kNoPrimitive && primitive > 2;
+        if (primitive == kNoPrimitive) continue;
+        EXPECT_NEAR((*hits)[i].t, t, primitive > 2 ? 2e-7 * std::max(1.0, t) : 1e-5) << i;
+        EXPECT_TRUE(
+            tracer.occluded(rays->origin(i), rays->direction(i), 0.0f, static_cast<float>(1.001 * t + 1e-6)));
+      }
+      // Triangles in float near an edge.
+      EXPECT_LE(differ, 1) << label(mode) << " seed " << kSeed;
+      EXPECT_GT(met, 800) << label(mode);
+    }
+  }
+}
+
+TEST(UserGeometry, ARayThatLeavesAFieldDoesNotMeetItWhereItLeft) {
+  const Scene scene = fields();
+  const Tracer tracer(scene, {});
+  int left = 0;
+  for (uint64_t i = 0; i < 6000; ++i) {
+    const auto unit = [&](uint32_t d) { return 2.0 * random_unit(i, d, 9, kSeed) - 1.0; };
+    const vec3 o(dvec3(1.6 * unit(0), 1.6 * unit(1), 1.6 * unit(2)));
+    const vec3 d(glm::normalize(dvec3(unit(3), unit(4), unit(5)) - dvec3(o)));
+    const Hit hit = tracer.intersect(o, d);
+    if (!hit.valid() || hit.primitive < 3) continue;
+    const SurfacePoint p =
+        surface_point(scene, hit.primitive, hit.u, hit.v, dvec3(o) + double(hit.t) * dvec3(d));
+    const double cosine = glm::dot(dvec3(d), p.geometric_normal);
+    if (cosine > -0.05) continue;  // from inside, or across a rim
+    ++left;
+    const Hit next = tracer.intersect(vec3(p.position + p.offset * p.geometric_normal),
+                                      vec3(dvec3(d) - 2.0 * cosine * p.geometric_normal));
+    EXPECT_FALSE(next.primitive == hit.primitive && next.t < 1e-3f) << i;
+  }
+  EXPECT_GT(left, 1500);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 namespace hybray {
 namespace {
 
-TEST(FieldGBuffer, GapsOfACutOutShowWhatIsBehindThem) {
+TEST(CutOutGBuffer, GapsOfACutOutShowWhatIsBehindThem) {
   Scene scene = test::empty_scene();
   scene.materials.push_back({});
   scene.materials[1].cut_out = CutOut::fern;
