@@ -14,7 +14,8 @@ KEYS = ("scene", "camera", "width", "height", "near_m", "far_near_ratio", "far_p
         "sun_elevation_degrees", "sun_azimuth_degrees", "tracer_mode", "footprint_factor", "layers", "guard_band", "free_space",
         "march_on", "confirm", "min_max", "caustics", "map_resolution", "rays_per_texel", "mirror_depth", "lights_visible",
         "lights_invisible", "emission", "first_surface", "visibility", "mixed", "gather_radius", "camera_paths",
-        "roulette_threshold", "filter", "threads")
+        "roulette_threshold", "filter", "body", "ior", "incidence_degrees", "scale", "turn_degrees", "leaving_offset",
+        "robust", "threads")
 Group = tuple[tuple[str, str], ...]
 
 

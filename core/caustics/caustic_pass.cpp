@@ -19,6 +19,21 @@ uint64_t mixed_seed(uint64_t seed, uint64_t stream, uint64_t sample) {
 
 constexpr uint64_t kCameraStream = 0x80000000u;  // beyond the number of any light
 
+// Calls work(map, emission, walk) for each light, with its own random numbers.
+template <class Work>
+void for_each_light(const CausticScene& scene, const PassSettings& settings, const MapSet& maps,
+                    uint32_t sample, const Work& work) {
+  for (const VisibilityMap& map : maps.maps) {
+    const uint64_t seed = mixed_seed(settings.walk.seed, map.light, sample);
+    const Emission emission(scene.tracer.scene().lights[map.light], map, scene.tracer.scene().bounds,
+                            settings.emission,
+                            expected_paths(map, settings.emission, settings.rays_per_texel), seed);
+    WalkOptions walk = settings.walk;
+    walk.seed = seed;
+    work(map, emission, walk);
+  }
+}
+
 }  // namespace
 
 CausticScene::CausticScene(const Tracer& t) : tracer(t), optics(optics::make_optics(t.scene())) {
@@ -59,22 +74,31 @@ void trace_light_paths(const CausticScene& scene, const PassSettings& settings, 
     throw InputError("rays_per_texel",
                      fmt::format("{} asks for {:.0f} light paths in one pass; at most {:.0f} can be traced",
                                  settings.rays_per_texel, expected, kMostPathsOfPass));
-  for (const VisibilityMap& map : maps.maps) {
-    const uint64_t seed = mixed_seed(settings.walk.seed, map.light, sample);
-    const Emission emission(scene.tracer.scene().lights[map.light], map, scene.tracer.scene().bounds,
-                            settings.emission,
-                            expected_paths(map, settings.emission, settings.rays_per_texel), seed);
-    WalkOptions walk = settings.walk;
-    walk.seed = seed;
-    // The list gathers all lights; what this one adds to its account is its own.
-    WalkCounts before;
-    std::swap(before, result.list.counts);
-    trace_photons(scene.tracer, scene.optics, emission, map, settings.first_surface,
-                  scene.light_media[map.light], walk, 0, emission.paths(), result.list);
-    result.ledgers.push_back(result.list.counts.ledger);
-    before.add(result.list.counts);
-    result.list.counts = before;
-  }
+  for_each_light(scene, settings, maps, sample,
+                 [&](const VisibilityMap& map, const Emission& emission, const WalkOptions& walk) {
+                   // The list gathers all lights; what this one adds to its account is its own.
+                   WalkCounts before;
+                   std::swap(before, result.list.counts);
+                   trace_photons(scene.tracer, scene.optics, emission, map, settings.first_surface,
+                                 scene.light_media[map.light], walk, 0, emission.paths(), result.list);
+                   result.ledgers.push_back(result.list.counts.ledger);
+                   before.add(result.list.counts);
+                   result.list.counts = before;
+                 });
+}
+
+PathAudit audit_light_paths(const CausticScene& scene, const PassSettings& settings, const MapSet& maps,
+                            uint32_t sample) {
+  PathAudit all;
+  all.arrived.assign(scene.optics.media.size(), 0.0);
+  for_each_light(scene, settings, maps, sample,
+                 [&](const VisibilityMap& map, const Emission& emission, const WalkOptions& walk) {
+                   const PathAudit one = audit_paths(scene.tracer, scene.optics, emission,
+                                                     scene.light_media[map.light], walk, 0, emission.paths());
+                   all.segments += one.segments, all.self_intersections += one.self_intersections;
+                   for (size_t m = 0; m < all.arrived.size(); ++m) all.arrived[m] += one.arrived[m];
+                 });
+  return all;
 }
 
 DirectResult deposit(const CausticScene& scene, const PassSettings& settings, const GBuffer& camera,

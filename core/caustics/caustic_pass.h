@@ -2,6 +2,7 @@
 // and deposit, mixed caustics. Its stages can be run and timed one by one.
 #pragma once
 
+#include "core/caustics/path_audit.h"
 #include "core/caustics/photon_maps.h"
 #include "core/caustics/photon_trace.h"
 #include "core/caustics/splat.h"
@@ -72,6 +73,9 @@ LightPaths trace_light_paths(const CausticScene& scene, const PassSettings& sett
 // The same into `result`, whose memory is used again.
 void trace_light_paths(const CausticScene& scene, const PassSettings& settings, const MapSet& maps,
                        uint32_t sample, LightPaths& result);
+// The same paths audited, as where first surfaces are traced.
+PathAudit audit_light_paths(const CausticScene& scene, const PassSettings& settings, const MapSet& maps,
+                            uint32_t sample);
 DirectResult deposit(const CausticScene& scene, const PassSettings& settings, const GBuffer& camera,
                      const LightPaths& paths);
 MixedResult add_mixed(const CausticScene& scene, const PassSettings& settings, const GBuffer& camera,

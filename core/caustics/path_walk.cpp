@@ -66,7 +66,7 @@ void PathWalk::meet_hits(WalkMemory& memory) const {
     const Hit hit = front.hits[i];
     const double t = static_cast<double>(hit.t);
     dvec3 direction(front.rays.direction(i)), origin = dvec3(front.rays.origin(i)) + t * direction;
-    const SurfacePoint point = optics_.surfaces.point(hit.primitive, hit.u, hit.v, origin);
+    const SurfacePoint point = optics_.surfaces.point(hit.primitive, hit.u, hit.v, origin, options_.leaving);
     Path path = front.path(i);
     travel(t, path);
     if (meet(point, origin, direction, path, memory.arrivals)) memory.next().push(origin, direction, path);

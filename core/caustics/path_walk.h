@@ -20,6 +20,7 @@ struct WalkOptions {
   // A path whose weight has fallen below this share of its initial weight survives with a probability that
   // brings it back to it (Russian roulette).
   double roulette_threshold = 0.25;
+  LeavingOffset leaving = LeavingOffset::largest;  // how far off a surface a path goes on
   TraceMode mode = TraceMode::packet16_coherent;
   uint64_t seed = 1;
 };
@@ -59,6 +60,7 @@ class PathWalk {
   // Traces every ray of the front one segment further and lets the paths meet what they hit. Paths that go on
   // are the new front, after those that lie in next() already. Those that met a diffuse part after a specular
   // event are the memory's new arrivals, as they were before anything of them went on.
+  // What was the front stays where it is, in next(), with its hits, until the next step.
   void advance(WalkMemory& memory) const;
 
   // The same with the hits that the front has already.

@@ -47,8 +47,8 @@ void meet_triangles(const optics::OpticsTable& optics, const WalkOptions& option
       const Vec3 direction = promoted(direction_f);
       const V t = hn::PromoteTo(d, hn::Load(df, &from.hits.t[i]));
       const Vec3 hit = add(promoted(load(&rays.ox[i], &rays.oy[i], &rays.oz[i])), scale(t, direction));
-      const Surface surface =
-          surface_at(staged, hn::Load(df, &from.hits.u[i]), hn::Load(df, &from.hits.v[i]), hit, direction);
+      const Surface surface = surface_at(staged, hn::Load(df, &from.hits.u[i]), hn::Load(df, &from.hits.v[i]),
+                                         hit, direction, options.leaving);
       const Materials materials(optics.materials, surface.material, valid);
       const VU surface_bits = materials(&Optics::tag), tag = hn::Load(du, &from.tag[i]);
       const VU medium = hn::And(hn::ShiftRight<path_tag::kMediumShift>(tag), low);

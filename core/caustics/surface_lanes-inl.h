@@ -150,15 +150,19 @@ HWY_INLINE hn::Vec<DF32U> high_half(VU v) {
   return hn::TruncateTo(DF32U(), hn::ShiftRight<32>(v));
 }
 
+HWY_INLINE Vec3 abs(const Vec3& v) {
+  return {hn::Abs(v.x), hn::Abs(v.y), hn::Abs(v.z)};
+}
+
 HWY_INLINE Surface surface_at(const StagedTriangles& staged, VF u, VF v, const Vec3& hit,
-                              const Vec3& direction) {
+                              const Vec3& direction, LeavingOffset leaving) {
   const D d;
   const DU du;
   const DF df;
   using Entry = SurfaceTable::Entry;
   static_assert(sizeof(Entry) == 4 * sizeof(double) && offsetof(Entry, plane) == 0 &&
                 offsetof(Entry, normal) == 8 && offsetof(Entry, reach) == 20 &&
-                offsetof(Entry, material_flat) == 24);
+                offsetof(Entry, material_flat) == 24 && offsetof(Entry, normal_reach) == 28);
   VU plane_bits, normal_xy, normal_z_reach, material_flat;
   hn::LoadInterleaved4(du, reinterpret_cast<const uint64_t*>(staged.entries), plane_bits, normal_xy,
                        normal_z_reach, material_flat);
@@ -169,7 +173,7 @@ HWY_INLINE Surface surface_at(const StagedTriangles& staged, VF u, VF v, const V
   const M flat = flag(material_flat, Entry::kFlat);
 
   Surface s;
-  s.material = hn::BitCast(DI(), hn::And(material_flat, hn::Set(du, Entry::kFlat - 1)));
+  s.material = hn::BitCast(DI(), hn::And(material_flat, hn::Set(du, uint64_t{Entry::kFlat - 1})));
   const Vec3 n = promoted(normal);
   s.position = subtract(hit, scale(hn::Sub(dot(n, hit), plane), n));
   Vec3 shading = n;
@@ -179,9 +183,16 @@ HWY_INLINE Surface surface_at(const StagedTriangles& staged, VF u, VF v, const V
     const Vec3f unit = scale(hn::Div(hn::Set(df, 1.0f), length), sum);
     shading = select(flat, n, promoted(select(hn::Gt(length, hn::Set(df, 1e-6f)), unit, normal)));
   }
-  const V largest =
-      hn::Max(hn::Max(hn::Abs(s.position.x), hn::Abs(s.position.y)), hn::Max(hn::Abs(s.position.z), reach));
-  s.offset = hn::Mul(hn::Set(d, kSurfaceOffset), largest);
+  const Vec3 size = abs(s.position);
+  const V largest = hn::Max(hn::Max(size.x, size.y), size.z);
+  if (leaving == LeavingOffset::largest) {
+    s.offset = hn::Mul(hn::Set(d, kSurfaceOffset), hn::Max(largest, reach));
+  } else {
+    const V normal_reach = hn::PromoteTo(d, hn::BitCast(df, high_half(material_flat)));
+    const V least =
+        hn::Max(hn::Mul(hn::Set(d, kLeastOfEdge), reach), hn::Mul(hn::Set(d, kLeastOfPosition), largest));
+    s.offset = hn::Mul(hn::Set(d, kNormalOffset), hn::Max(hn::Max(dot(abs(n), size), normal_reach), least));
+  }
 
   s.from_inner = hn::Gt(dot(direction, n), hn::Zero(d));
   s.geometric = negate_where(s.from_inner, n);

@@ -16,6 +16,7 @@ SurfaceTable::SurfaceTable(const Scene& scene, bool with_entries)
       e.plane = glm::dot(dvec3(e.normal), a);
       for (const vec3& edge : {ab, ac})
         e.reach = std::max({e.reach, std::abs(edge.x), std::abs(edge.y), std::abs(edge.z)});
+      e.normal_reach = glm::dot(glm::abs(e.normal), glm::max(glm::abs(ab), glm::abs(ac)));
       // One minus half the square of a float's rounding cannot be told from one: a few ulps are "the same".
       bool flat = true;
       for (const uint32_t v : {t.x, t.y, t.z})

@@ -20,8 +20,9 @@ class SurfaceTable {
 
   // As surface_point() does, with the point taken from `hit`, moved onto the triangle's plane, and normals of
   // float precision.
-  SurfacePoint point(uint32_t primitive, float u, float v, const dvec3& hit) const {
-    if (primitive >= entries_.size()) return surface_point(*scene_, primitive, u, v, hit);
+  SurfacePoint point(uint32_t primitive, float u, float v, const dvec3& hit,
+                     LeavingOffset leaving = LeavingOffset::largest) const {
+    if (primitive >= entries_.size()) return surface_point(*scene_, primitive, u, v, hit, leaving);
     const Entry& e = entries_[primitive];
     SurfacePoint p;
     p.primitive = primitive;
@@ -29,8 +30,13 @@ class SurfaceTable {
     p.geometric_normal = dvec3(e.normal);
     p.position = hit - (glm::dot(p.geometric_normal, hit) - e.plane) * p.geometric_normal;
     p.shading_normal = e.flat() ? p.geometric_normal : interpolated(primitive, u, v, e.normal);
-    const double largest = std::max({std::abs(p.position.x), std::abs(p.position.y), std::abs(p.position.z)});
-    p.offset = kSurfaceOffset * std::max(largest, static_cast<double>(e.reach));
+    const dvec3 size = glm::abs(p.position);
+    const double largest = std::max({size.x, size.y, size.z}), reach = static_cast<double>(e.reach);
+    p.offset = leaving == LeavingOffset::largest
+                   ? kSurfaceOffset * std::max(largest, reach)
+                   : kNormalOffset * std::max({glm::dot(glm::abs(p.geometric_normal), size),
+                                               static_cast<double>(e.normal_reach), kLeastOfEdge * reach,
+                                               kLeastOfPosition * largest});
     return p;
   }
 
@@ -41,6 +47,8 @@ class SurfaceTable {
     vec3 normal{0.0f};                                    // geometric
     float reach = 0.0f;          // largest coordinate of the two edges from the first vertex
     uint32_t material_flat = 0;  // material, and kFlat
+    float normal_reach = 0.0f;   // what |normal| and the largest coordinates of the edges have in common:
+                                 // their scalar product
     uint32_t material() const { return material_flat & ~kFlat; }
     bool flat() const { return (material_flat & kFlat) != 0; }
   };

@@ -3,6 +3,7 @@
 // this is shared with the code that it judges: Fresnel, Snell and all geometry are written again, in double.
 #pragma once
 
+#include "core/scene/procedural/closed_form_scenes.h"
 #include "core/scene/scene.h"
 
 #include <functional>
@@ -34,5 +35,14 @@ struct ClosedForm {
 // that matter, for a large number). Valid for any number; nothing where fewer than specular_events_needed are
 // followed, and where the scene is none of the closed-form scenes, unchanged but for its cameras.
 std::optional<ClosedForm> closed_form(const Scene& scene, int max_specular_events);
+
+// The same for the scene that procedural::closed_form_scene makes of these numbers. Any index of refraction
+// above 1; a slab of any thickness; incidence below a right angle.
+std::optional<ClosedForm> closed_form(const procedural::BallLens& c, int max_specular_events);
+std::optional<ClosedForm> closed_form(const procedural::GlassSlab& c, int max_specular_events);
+std::optional<ClosedForm> closed_form(const procedural::FlatWater& c, int max_specular_events);
+std::optional<ClosedForm> closed_form(const procedural::Furnace& c, int max_specular_events);
+std::optional<ClosedForm> closed_form(const procedural::SunlitPool& c, int max_specular_events);
+std::optional<ClosedForm> closed_form(const procedural::GrazedReceiver& c, int max_specular_events);
 
 }  // namespace hybray::truth

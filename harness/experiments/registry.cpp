@@ -7,14 +7,15 @@
 #include "harness/experiments/ssrm_rays.h"
 #include "harness/experiments/ssrm_speed.h"
 #include "harness/experiments/stability.h"
+#include "harness/experiments/stability_caustics.h"
 
 namespace hybray {
 
 std::span<const Experiment> experiments() {
-  static const std::vector<Experiment> all = {ssrm_experiment(),           ssrm_accuracy_experiment(),
-                                              ssrm_breakeven_experiment(), ssrm_layers_experiment(),
-                                              ssrm_rays_experiment(),      ssrm_speed_experiment(),
-                                              stability_experiment(),      caustics_experiment()};
+  static const std::vector<Experiment> all = {
+      ssrm_experiment(),        ssrm_accuracy_experiment(), ssrm_breakeven_experiment(),
+      ssrm_layers_experiment(), ssrm_rays_experiment(),     ssrm_speed_experiment(),
+      stability_experiment(),   caustics_experiment(),      stability_caustics_experiment()};
   return all;
 }
 

@@ -1,7 +1,7 @@
 #include "core/scene/procedural/closed_form_scenes.h"
 
+#include "core/scene/procedural/closed_form_parts.h"
 #include "core/scene/procedural/exact_scene.h"
-#include "core/scene/procedural/mesh_builder.h"
 
 #include <array>
 #include <cmath>
@@ -10,70 +10,6 @@
 
 namespace hybray::procedural {
 namespace {
-
-uint32_t add_material(Scene& scene, const Material& material) {
-  scene.materials.push_back(material);
-  return static_cast<uint32_t>(scene.materials.size() - 1);
-}
-
-uint32_t add_clear(Scene& scene, const char* name, double ior, double absorption = 0.0) {
-  return add_material(scene, {.name = name,
-                              .base_color = vec3(1.0f),
-                              .roughness = 0.0f,
-                              .transmission = 1.0f,
-                              .ior = static_cast<float>(ior),
-                              .absorption = vec3(static_cast<float>(absorption))});
-}
-
-uint32_t add_mirror(Scene& scene) {
-  return add_material(scene, {.name = "mirror",
-                              .base_color = vec3(static_cast<float>(kMirrorReflectance)),
-                              .metallic = 1.0f,
-                              .roughness = 0.0f});
-}
-
-void add_part(Scene& scene, MeshBuilder& part, uint32_t material, const char* name) {
-  append_mesh(scene, part.take(), mat4(1.0f), material, name);
-}
-
-// The parallelogram with corner `a` and edges u and v; its front is the side of u x v.
-void add_parallelogram(Scene& scene, const dvec3& a, const dvec3& u, const dvec3& v, uint32_t material,
-                       const char* name) {
-  MeshBuilder part;
-  part.quad(a, a + u, a + u + v, a + v);
-  add_part(scene, part, material, name);
-}
-
-uint32_t add_receiver_material(Scene& scene) {
-  return add_material(scene, {.name = "receiver", .base_color = vec3(0.8f), .roughness = 1.0f});
-}
-
-// A scene with a floor, which is its first object.
-Scene with_floor(const char* name, double half_width) {
-  Scene scene;
-  scene.name = name;
-  add_parallelogram(scene, {-half_width, 0, half_width}, {2 * half_width, 0, 0}, {0, 0, -2 * half_width},
-                    add_receiver_material(scene), "receiver");
-  return scene;
-}
-
-void add_lamp(Scene& scene, const dvec3& position) {
-  scene.lights.push_back({.name = "lamp",
-                          .kind = LightKind::point,
-                          .position = vec3(position),
-                          .intensity = static_cast<float>(kClosedFormIntensity)});
-}
-
-void add_sun(Scene& scene, const dvec3& direction) {
-  scene.lights.push_back({.name = "sun",
-                          .kind = LightKind::directional,
-                          .direction = vec3(glm::normalize(direction)),
-                          .intensity = static_cast<float>(kClosedFormIrradiance)});
-}
-
-void add_camera(Scene& scene, const dvec3& eye, const dvec3& target, float vertical_fov) {
-  scene.cameras.push_back({"receiver", vec3(eye), vec3(target), vec3(0, 1, 0), vertical_fov});
-}
 
 // The body between z = -half_length and half_length over a convex cross section, counter-clockwise in (x, y).
 void add_extruded(Scene& scene, const std::vector<dvec2>& section, double half_length, uint32_t material) {
@@ -90,12 +26,11 @@ void add_extruded(Scene& scene, const std::vector<dvec2>& section, double half_l
   add_part(scene, part, material, "prism");
 }
 
-Scene ball_lens() {
-  using C = BallLens;
-  Scene scene = with_floor("closed_ball_lens", C::floor);
-  append_analytic(scene, analytic_sphere("ball", add_clear(scene, "glass", kGlassIor),
-                                         {0, C::center_height, 0}, C::radius));
-  add_lamp(scene, {0, C::light_height, 0});
+Scene scene_of(const BallLens& c) {
+  Scene scene = with_floor("closed_ball_lens", c.floor);
+  append_analytic(
+      scene, analytic_sphere("ball", add_clear(scene, "glass", c.ior), {0, c.center_height, 0}, c.radius));
+  add_lamp(scene, {0, c.light_height, 0});
   add_camera(scene, {0, 0.45, 2.2}, {0, 0, 0}, 40.0f);
   return scene;
 }
@@ -110,25 +45,22 @@ Scene plane_mirror() {
   return scene;
 }
 
-Scene glass_slab() {
-  using C = GlassSlab;
-  Scene scene = with_floor("closed_glass_slab", C::floor);
+Scene scene_of(const GlassSlab& c) {
+  Scene scene = with_floor("closed_glass_slab", c.floor);
   MeshBuilder part;
-  part.box({-C::half_width, C::bottom, -C::half_width},
-           {C::half_width, C::bottom + C::thickness, C::half_width});
-  add_part(scene, part, add_clear(scene, "glass", kGlassIor, C::absorption), "slab");
-  add_lamp(scene, {0, C::light_height, 0});
+  part.box({-c.half_width, c.bottom, -c.half_width}, {c.half_width, c.bottom + c.thickness, c.half_width});
+  add_part(scene, part, add_clear(scene, "glass", c.ior, c.absorption), "slab");
+  add_lamp(scene, {0, c.light_height, 0});
   add_camera(scene, {0, 0.8, 3.5}, {0, 0, 0}, 75.0f);
   return scene;
 }
 
-Scene flat_water() {
-  using C = FlatWater;
-  Scene scene = with_floor("closed_flat_water", C::floor);
+Scene scene_of(const FlatWater& c) {
+  Scene scene = with_floor("closed_flat_water", c.floor);
   MeshBuilder part;
-  part.box({-C::half_width, -C::below, -C::half_width}, {C::half_width, C::depth, C::half_width});
-  add_part(scene, part, add_clear(scene, "water", C::ior), "water");
-  add_lamp(scene, {0, C::light_height, 0});
+  part.box({-c.half_width, -c.below, -c.half_width}, {c.half_width, c.depth, c.half_width});
+  add_part(scene, part, add_clear(scene, "water", c.ior), "water");
+  add_lamp(scene, {0, c.light_height, 0});
   add_camera(scene, {0, 0.9, 3.5}, {0, 0, 0}, 75.0f);
   return scene;
 }
@@ -192,40 +124,53 @@ Scene tir_prism() {
   return scene;
 }
 
-Scene furnace() {
-  using C = Furnace;
+Scene scene_of(const Furnace& c) {
   Scene scene;
   scene.name = "closed_furnace";
   const uint32_t white =
       add_material(scene, {.name = "receiver", .base_color = vec3(1.0f), .roughness = 1.0f});
-  const double h = C::half_room;
-  for (int axis = 0; axis < 3; ++axis)
-    for (const double side : {-h, h}) {
-      dvec3 a(-h), u(0.0), v(0.0);
-      a[axis] = side;
-      // u x v points along +axis; the walls face the room.
-      u[(axis + 1) % 3] = 2 * h, v[(axis + 2) % 3] = 2 * h;
-      if (side > 0)
-        add_parallelogram(scene, a, v, u, white, "receiver");
-      else
-        add_parallelogram(scene, a, u, v, white, "receiver");
-    }
-  append_analytic(scene, analytic_sphere("ball", add_clear(scene, "glass", kGlassIor), dvec3(0), C::radius));
-  add_lamp(scene, dvec3(C::light));
+  add_room(scene, c.half_room, white, "receiver");
+  append_analytic(scene, analytic_sphere("ball", add_clear(scene, "glass", c.ior), dvec3(0), c.radius));
+  add_lamp(scene, dvec3(c.light));
   add_camera(scene, {2.5, 2.5, -2.5}, {0, 0, 0}, 75.0f);
+  return scene;
+}
+
+template <class Case>
+Scene standard() {
+  return scene_of(Case{});
+}
+
+template <class Case>
+Scene hashed(const Case& c) {
+  Scene scene = scene_of(c);
+  update_content_hash(scene);
   return scene;
 }
 
 }  // namespace
 
+Scene closed_form_scene(const BallLens& c) {
+  return hashed(c);
+}
+Scene closed_form_scene(const GlassSlab& c) {
+  return hashed(c);
+}
+Scene closed_form_scene(const FlatWater& c) {
+  return hashed(c);
+}
+Scene closed_form_scene(const Furnace& c) {
+  return hashed(c);
+}
+
 std::span<const Generator> closed_form_generators() {
   static constexpr std::array<Generator, 10> kGenerators{{
-      {"closed_ball_lens", "a glass ball under a lamp", 2, exact<ball_lens>, true},
+      {"closed_ball_lens", "a glass ball under a lamp", 2, exact<standard<BallLens>>, true},
       {"closed_cardioid", "a lamp over the wall of a mirrored cylinder", 2, exact<cardioid>, true},
       {"closed_cylinder", "parallel light in a mirrored cylinder", 2, exact<cylinder>, true},
-      {"closed_flat_water", "the floor of still water under a lamp", 14, exact<flat_water>, true},
-      {"closed_furnace", "a glass ball in a closed white room", 12, exact<furnace>, true},
-      {"closed_glass_slab", "a plate of glass under a lamp", 14, exact<glass_slab>, true},
+      {"closed_flat_water", "the floor of still water under a lamp", 14, exact<standard<FlatWater>>, true},
+      {"closed_furnace", "a glass ball in a closed white room", 12, exact<standard<Furnace>>, true},
+      {"closed_glass_slab", "a plate of glass under a lamp", 14, exact<standard<GlassSlab>>, true},
       {"closed_paraboloid", "a parabolic mirror with the lamp at its focus", 2, exact<paraboloid>, true},
       {"closed_plane_mirror", "a mirror on the floor beside a lamp", 4, exact<plane_mirror>, true},
       {"closed_prism", "parallel light through an equilateral prism", 10, exact<prism>, true},

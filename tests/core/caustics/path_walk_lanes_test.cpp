@@ -146,7 +146,8 @@ class PathWalkLanes : public testing::Test {
       dvec3 direction(front_->rays.direction(i));
       dvec3 origin = dvec3(front_->rays.origin(i)) + static_cast<double>(hit.t) * direction;
       walk.travel(static_cast<double>(hit.t), path);
-      const SurfacePoint point = optics_.surfaces.point(hit.primitive, hit.u, hit.v, origin);
+      const SurfacePoint point =
+          optics_.surfaces.point(hit.primitive, hit.u, hit.v, origin, options_.leaving);
       const bool goes_on = walk.meet(point, origin, direction, path, *arrivals);
       if (goes_on) next->push(origin, direction, path);
       out.ended += !goes_on;
@@ -171,6 +172,7 @@ TEST_F(PathWalkLanes, DoWhatTheScalarCodeDoesBitByBit) {
   WalkCounts all;
   for (uint64_t seed = 0; seed < kFronts; ++seed) {
     fill(seed);
+    options_.leaving = seed % 2 ? LeavingOffset::along_normal : LeavingOffset::largest;
     std::vector<bool> left_out;
     const Outcome lanes = in_lanes(&left_out), scalar = one_by_one(left_out);
     EXPECT_EQ(lanes.arrivals, scalar.arrivals);

@@ -3,6 +3,9 @@
 
 #include "tests/core/test_scenes.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace hybray {
@@ -46,6 +49,68 @@ TEST(SurfaceTable, AgreesWithThePointWorkedOutAnewWithinRounding) {
     EXPECT_GT(a.offset, glm::length(a.position - on));
     EXPECT_EQ(a.material, b.material);
     EXPECT_EQ(a.primitive, b.primitive);
+  }
+}
+
+// How far `p`, as a float, lies off the plane of `triangle` on the side of `normal`, by the triangle's own
+// vertices.
+double clearance(const Scene& scene, uint32_t triangle, const dvec3& p, double sign) {
+  const dvec3 a(scene.positions[scene.triangles[triangle].x]);
+  return sign * glm::dot(dvec3(vec3(p)) - a, geometric_normal(scene, triangle));
+}
+
+TEST(SurfaceTable, OffsetsClearTheRoundingOfPointsWhereverTheyLie) {
+  for (const double place : {0.0, 10.0, 1e3, 1e5}) {
+    Scene scene = leaning_soup();
+    for (vec3& p : scene.positions) p += vec3(static_cast<float>(place));
+    const SurfaceTable table(scene, true), none(scene, false);
+    for (uint32_t t = 0; t < scene.triangles.size(); ++t) {
+      const auto u = static_cast<float>(0.6 * random_unit(t, 0, 1)),
+                 v = static_cast<float>(0.4 * random_unit(t, 1, 1));
+      for (const SurfaceTable* from : {&table, &none})
+        for (const LeavingOffset leaving : {LeavingOffset::largest, LeavingOffset::along_normal}) {
+          const dvec3 hit = point_of(scene, t, static_cast<double>(u), static_cast<double>(v));
+          const SurfacePoint p = from->point(t, u, v, hit, leaving);
+          for (const double sign : {-1.0, 1.0})
+            EXPECT_GT(clearance(scene, t, p.position + sign * p.offset * p.geometric_normal, sign),
+                      0.25 * p.offset)
+                << "triangle " << t << " at " << place;
+        }
+    }
+  }
+}
+
+TEST(SurfaceTable, OffsetsAlongTheNormalDoNotGrowWithWhatLiesAcrossIt) {
+  // A level square of side 2000 whose height is 0.75, and one like it through the origin.
+  for (const float height : {0.75f, 0.0f}) {
+    Scene scene = test::triangle_soup(1, 1.0f, 1.0f, 1);
+    const float far = 1000.0f;
+    scene.positions = {{-far, height, far}, {far, height, far}, {far, height, -far}};
+    for (vec3& n : scene.normals) n = vec3(0, 1, 0);
+    const SurfaceTable table(scene, true);
+    const dvec3 hit(123.0, static_cast<double>(height), -45.0);
+    const auto offset = [&](LeavingOffset leaving) {
+      return table.point(0, 0.2f, 0.3f, hit, leaving).offset;
+    };
+    EXPECT_EQ(offset(LeavingOffset::largest), kSurfaceOffset * 2000.0);
+    EXPECT_EQ(offset(LeavingOffset::along_normal), kNormalOffset * kLeastOfEdge * 2000.0);
+  }
+}
+
+TEST(SurfaceTable, OffsetsAlongTheNormalClearASphereFarFromTheOrigin) {
+  Scene scene = leaning_soup();
+  const dvec3 center(2e4, -1e3, 3e5);
+  append_analytic(scene, analytic_sphere("ball", 0, center, 0.75));
+  const auto ball = static_cast<uint32_t>(scene.triangles.size());
+  for (uint32_t i = 0; i < 2000; ++i) {
+    const dvec3 n = glm::normalize(dvec3(random_unit(i, 0), random_unit(i, 1), random_unit(i, 2)) - 0.5);
+    const SurfacePoint p =
+        surface_point(scene, ball, 0.0f, 0.0f, center + 0.75 * n, LeavingOffset::along_normal);
+    for (const double sign : {-1.0, 1.0}) {
+      const dvec3 left(vec3(p.position + sign * p.offset * n));
+      EXPECT_GT(sign * (glm::length(left - center) - 0.75), 0.0) << i;
+    }
+    EXPECT_LE(p.offset, kNormalOffset * (std::sqrt(3.0) * 3e5 + 0x1p-24 * 9e10));
   }
 }
 

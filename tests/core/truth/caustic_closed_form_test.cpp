@@ -68,10 +68,10 @@ double mismatch_share(const std::string& scene) {
     return 8.0 * a * 0x1p-23 * floor / square_of_distance / solid_angle;
   };
   if (scene == "closed_flat_water")
-    return square(FlatWater::floor, FlatWater::half_width, FlatWater::light_height - FlatWater::depth);
+    return square(FlatWater{}.floor, FlatWater{}.half_width, FlatWater{}.light_height - FlatWater{}.depth);
   if (scene == "closed_glass_slab")
-    return square(GlassSlab::floor, GlassSlab::half_width,
-                  GlassSlab::light_height - GlassSlab::bottom - GlassSlab::thickness);
+    return square(GlassSlab{}.floor, GlassSlab{}.half_width,
+                  GlassSlab{}.light_height - GlassSlab{}.bottom - GlassSlab{}.thickness);
   if (scene == "closed_tir_prism")
     return shadow(TirPrism::wall_half_width, TirPrism::leg, 2.0 * TirPrism::half_length);
   if (scene == "closed_prism") {
