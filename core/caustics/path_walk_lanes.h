@@ -21,9 +21,8 @@ struct LeftPaths {
 };
 
 // Reads paths [0, from.count) with from.hits; appends what arrives at diffuse parts after a specular event to
-// `arrivals` and the
-// paths that go on to `to`, both in order. Paths whose segments met an analytic surface, and those that a
-// surface's shading normal does not refract plainly, are only listed, in `left`.
+// `arrivals` and the paths that go on to `to`, both in order. Paths whose segments met something else than a
+// triangle, and those that a surface's shading normal does not refract plainly, are only listed, in `left`.
 void meet_triangles(const optics::OpticsTable& optics, const WalkOptions& options, const PathFront& from,
                     PathFront& to, Arrivals& arrivals, LeftPaths& left, WalkCounts& counts);
 

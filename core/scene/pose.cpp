@@ -13,8 +13,26 @@ bool has_area(const Scene& scene, const uvec3& triangle) {
          dvec3(0.0);
 }
 
-// Objects keep their order, and lose the triangles that have no area.
-size_t drop_collapsed(Scene& scene) {
+void extend(Bounds3& bounds, const Bounds3& box) {
+  bounds.extend(box.lower);
+  bounds.extend(box.upper);
+}
+
+AnalyticSurface posed(const AnalyticSurface& surface, const Pose& pose) {
+  if (surface.kind != AnalyticSurface::Kind::sphere && pose.turn != dmat3(1.0))
+    throw InputError("analytic surface '" + surface.name + "'", "it is upright and cannot be turned");
+  AnalyticSurface s = surface;
+  s.center = pose(s.center);
+  s.radius *= pose.scale, s.focal_length *= pose.scale;
+  s.y0 = pose.scale * s.y0 + pose.offset.y, s.y1 = pose.scale * s.y1 + pose.offset.y;
+  s.field.radius *= pose.scale, s.field.period *= pose.scale;
+  if (s.field.shape != DistanceField::Shape::gyroid) s.field.thickness *= pose.scale;  // of a gyroid, no length
+  return s;
+}
+
+}  // namespace
+
+size_t leave_out_collapsed(Scene& scene) {
   size_t kept = 0;
   for (SceneObject& object : scene.objects) {
     const size_t begin = object.first_triangle, end = begin + object.triangle_count;
@@ -30,10 +48,9 @@ size_t drop_collapsed(Scene& scene) {
   const size_t dropped = scene.triangles.size() - kept;
   scene.triangles.resize(kept);
   scene.triangle_material.resize(kept);
+  update_content_hash(scene);
   return dropped;
 }
-
-}  // namespace
 
 dmat3 rotation(const dvec3& axis, double angle) {
   const dvec3 a = glm::normalize(axis);
@@ -47,46 +64,36 @@ dmat3 rotation(const dvec3& axis, double angle) {
   return r;
 }
 
-Scene posed(const Scene& original, const Pose& pose, size_t* collapsed) {
+Camera posed(const Camera& camera, const Pose& pose) {
+  Camera c = camera;
+  c.eye = vec3(pose(dvec3(c.eye))), c.target = vec3(pose(dvec3(c.target)));
+  c.up = vec3(pose.turn * dvec3(c.up));
+  return c;
+}
+
+Scene posed(const Scene& original, const Pose& pose) {
   Scene scene = original;
   const auto point = [&](const vec3& p) { return vec3(pose(dvec3(p))); };
-  const auto direction = [&](const vec3& d) { return vec3(pose.turn * dvec3(d)); };
+  const bool turned = pose.turn != dmat3(1.0);
+  const auto direction = [&](const vec3& d) { return turned ? vec3(pose.turn * dvec3(d)) : d; };
+  const auto length = [&](float l) { return static_cast<float>(pose.scale * static_cast<double>(l)); };
   for (vec3& p : scene.positions) p = point(p);
   for (vec3& n : scene.normals) n = direction(n);
-  const size_t dropped = drop_collapsed(scene);
-  if (collapsed) *collapsed = dropped;
-  for (AnalyticSurface& s : scene.analytic) {
-    if (s.kind != AnalyticSurface::Kind::sphere && pose.turn != dmat3(1.0))
-      throw InputError("analytic surface '" + s.name + "'", "it is upright and cannot be turned");
-    s.center = pose(s.center);
-    s.radius *= pose.scale, s.focal_length *= pose.scale;
-    s.y0 = pose.scale * s.y0 + pose.offset.y, s.y1 = pose.scale * s.y1 + pose.offset.y;
-  }
+  for (AnalyticSurface& s : scene.analytic) s = posed(s, pose);
   for (RoundCurve& curve : scene.curves)
-    for (vec4& c : curve.control)
-      c = vec4(point(vec3(c)), static_cast<float>(pose.scale * static_cast<double>(c.w)));
+    for (vec4& c : curve.control) c = vec4(point(vec3(c)), length(c.w));
   for (Material& m : scene.materials) {
     m.absorption = vec3(dvec3(m.absorption) / pose.scale);
     m.outer_absorption = vec3(dvec3(m.outer_absorption) / pose.scale);
   }
-  for (Light& l : scene.lights) {
-    l.position = point(l.position), l.direction = direction(l.direction);
-    l.range = static_cast<float>(pose.scale * static_cast<double>(l.range));
-  }
-  for (Camera& c : scene.cameras) c.eye = point(c.eye), c.target = point(c.target), c.up = direction(c.up);
+  for (Light& l : scene.lights)
+    l.position = point(l.position), l.direction = direction(l.direction), l.range = length(l.range);
+  for (Camera& c : scene.cameras) c = posed(c, pose);
   scene.bounds = {};
   for (const uvec3& t : scene.triangles)
     for (const uint32_t v : {t.x, t.y, t.z}) scene.bounds.extend(scene.positions[v]);
-  for (const AnalyticSurface& s : scene.analytic) {
-    const Bounds3 box = bounds(s);
-    scene.bounds.extend(box.lower);
-    scene.bounds.extend(box.upper);
-  }
-  for (const RoundCurve& curve : scene.curves) {
-    const Bounds3 box = bounds(curve);
-    scene.bounds.extend(box.lower);
-    scene.bounds.extend(box.upper);
-  }
+  for (const AnalyticSurface& s : scene.analytic) extend(scene.bounds, bounds(s));
+  for (const RoundCurve& c : scene.curves) extend(scene.bounds, bounds(c));
   update_content_hash(scene);
   return scene;
 }

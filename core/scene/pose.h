@@ -21,10 +21,14 @@ struct Pose {
 dmat3 rotation(const dvec3& axis, double angle);
 
 // `scene` placed: geometry, lights, cameras; absorption falls as lengths grow. Intensities stay: from point
-// and spot lights the flux is the same then, from directional ones it grows with scale^2. Triangles whose
-// vertices have come to lie on one line are left out; `collapsed`, where it is given, counts them. Throws
-// InputError for a turn of a scene with upright analytic surfaces (cylinders, paraboloids).
-Scene posed(const Scene& scene, const Pose& pose, size_t* collapsed = nullptr);
+// and spot lights the flux is the same then, from directional ones it grows with scale^2. Primitive ids stay
+// too, so triangles whose vertices have come to lie on one line are still there. Throws InputError for a turn
+// of a scene with upright analytic surfaces (cylinders, paraboloids) or fields.
+Scene posed(const Scene& scene, const Pose& pose);
+Camera posed(const Camera& camera, const Pose& pose);
+
+// Leaves those triangles out, and returns how many there were.
+size_t leave_out_collapsed(Scene& scene);
 
 // The middle of the scene's bounds: as the offset that is taken away, it brings the scene to the origin,
 // where floats are densest. A scene that is small against its distance from the origin is moved exactly.

@@ -28,7 +28,7 @@ void follow(const Tracer& tracer, const View& view, const HitStream& hits, int l
     for (int i = 0; i < sights.count; ++i) {
       const size_t ray = sights.ray[i];
       const bool same = met[i].primitive == hits.primitive[ray];
-      if (!met[i].valid() || (same && !tracer.scene().is_curve(met[i].primitive)) ||
+      if (!met[i].valid() || (same && tracer.scene().is_triangle(met[i].primitive)) ||
           met[i].t >= sights.depth[i] * (1.0 - kVisibilityTolerance)) {
         result[ray] = static_cast<uint8_t>(layer);
         continue;

@@ -56,7 +56,8 @@ Body make_body(const Point& point) {
   body.pose = {scale, rotation(kTurnAxis, point.number("turn") * kDegree), dvec3(point.number("offset"))};
   if (point.number("turn") == 0.0) body.pose.turn = dmat3(1.0);
   // In two steps: what floats lose at the offset is lost, whatever is taken away again.
-  body.scene = posed(body.scene, body.pose, &body.collapsed);
+  body.scene = posed(body.scene, body.pose);
+  body.collapsed = leave_out_collapsed(body.scene);
   if (point.text("origin") == "rebased") {
     const dvec3 middle = rebasing_offset(body.scene);
     body.scene = posed(body.scene, {.offset = -middle});

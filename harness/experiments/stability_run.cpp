@@ -29,8 +29,8 @@ struct PlacedScene {
   Scene scene;
   std::unique_ptr<Tracer> robust, fast;
 
-  PlacedScene(const Scene& original, const Placement& placement)
-      : scene(placed_scene(original, placement)),
+  PlacedScene(const Scene& original, const Pose& pose)
+      : scene(posed(original, pose)),
         robust(std::make_unique<Tracer>(scene, Tracer::Config{.robust = true, .high_quality = false})),
         fast(std::make_unique<Tracer>(scene, Tracer::Config{.robust = false, .high_quality = false})) {}
 };
@@ -44,10 +44,10 @@ const StableRays& stable_rays(const Point& point, Workspace& workspace, const Tr
   });
 }
 
-const PlacedScene& placed(const Point& point, Workspace& workspace, const Placement& placement) {
+const PlacedScene& placed(const Point& point, Workspace& workspace, const Pose& pose) {
   const std::string key = key_of(point, {"scene_scale", "offset", "origin", "camera", "incidence"});
   return workspace.newest<PlacedScene>(point.text("scene"), "placed scene", key, [&] {
-    return std::make_shared<PlacedScene>(workspace.scene(point.text("scene")), placement);
+    return std::make_shared<PlacedScene>(workspace.scene(point.text("scene")), pose);
   });
 }
 
@@ -235,16 +235,16 @@ Row run(const Point& point, Workspace& workspace) {
   const Tracer& robust = workspace.robust_tracer(name);
   const StableView view(point, robust);
   const StableRays& stable = stable_rays(point, workspace, robust, view.view);
-  const Placement placement = placement_of(point, view.camera);
-  const PlacedScene& there = placed(point, workspace, placement);
+  const Pose pose = pose_of(point, view.camera);
+  const PlacedScene& there = placed(point, workspace, pose);
   const ssrm::Marcher marcher =
       point.text("marcher") == "paper" ? ssrm::Marcher::paper : ssrm::Marcher::plane;
 
-  const DisturbedFrame frame(*there.robust, placed_view(view, placement, there.scene), storage_of(point),
+  const DisturbedFrame frame(*there.robust, placed_view(view, pose, there.scene), storage_of(point),
                              point.text("derivatives") == "difference", stable, offset_of(point));
   const std::vector<ssrm::Correction> exact = exact_labels(stable.frame, stable.rays, marcher);
   const ssrm::MarchResults results = frame.march(marcher);
-  const Case c{stable, frame, exact, results, placement.scale, {point.number("footprint_factor")}};
+  const Case c{stable, frame, exact, results, pose.scale, {point.number("footprint_factor")}};
 
   Row row;
   add_keys(row, point, view.view, scene);

@@ -68,17 +68,17 @@ StableView::StableView(const Point& point, const Tracer& robust)
       settings(settings_of(point, camera, robust.scene())),
       view(camera, settings, robust.scene().bounds) {}
 
-Placement placement_of(const Point& point, const Camera& camera) {
-  Placement placement{point.number("scene_scale"), point.number("offset") * kAside};
-  if (point.text("origin") == "camera") placement.offset = -placement.scale * dvec3(camera.eye);
-  return placement;
+Pose pose_of(const Point& point, const Camera& camera) {
+  Pose pose{.scale = point.number("scene_scale"), .offset = point.number("offset") * kAside};
+  if (point.text("origin") == "camera") pose.offset = -pose.scale * dvec3(camera.eye);
+  return pose;
 }
 
-View placed_view(const StableView& stable, const Placement& placement, const Scene& placed) {
+View placed_view(const StableView& stable, const Pose& pose, const Scene& placed) {
   View::Settings settings = stable.settings;
-  settings.near *= placement.scale;
-  settings.far *= placement.scale;
-  return View(placed_camera(stable.camera, placement), settings, placed.bounds);
+  settings.near *= pose.scale;
+  settings.far *= pose.scale;
+  return View(posed(stable.camera, pose), settings, placed.bounds);
 }
 
 DepthStorage storage_of(const Point& point) {

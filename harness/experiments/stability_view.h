@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/gbuffer/depth_storage.h"
-#include "core/scene/placement.h"
+#include "core/scene/pose.h"
 #include "core/tracer/tracer.h"
 #include "harness/experiments/experiment.h"
 
@@ -24,10 +24,10 @@ struct StableView {
 };
 
 // How a point moves its scene, and what its coordinates are relative to.
-Placement placement_of(const Point& point, const Camera& camera);
+Pose pose_of(const Point& point, const Camera& camera);
 
 // The same view there: near and far planes grow with the scene.
-View placed_view(const StableView& stable, const Placement& placement, const Scene& placed);
+View placed_view(const StableView& stable, const Pose& pose, const Scene& placed);
 
 DepthStorage storage_of(const Point& point);
 

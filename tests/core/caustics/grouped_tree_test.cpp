@@ -99,6 +99,20 @@ TEST(GroupedTree, FindsAllThatBruteForceFindsAndLittleElse) {
   EXPECT_LT(visited, 100 * items.boxes.size() / 50);
 }
 
+TEST(GroupedTree, TakesAllCurvesForOneObjectAfterTheAnalyticSurfaces) {
+  Scene scene = scene_of_six();
+  RoundCurve curve;
+  for (size_t i = 0; i < 4; ++i) curve.control[i] = vec4(0.0f, static_cast<float>(i), 0.0f, 0.1f);
+  for (int i = 0; i < 3; ++i) append_curve(scene, curve);
+  const Bounds3 box{vec3(0.0f), vec3(0.1f)};
+  const std::vector<Bounds3> boxes(4, box);
+  const auto first = static_cast<uint32_t>(scene.first_curve());
+  const std::vector<uint32_t> curves{first, first + 2, first + 1, first};
+  EXPECT_EQ(GroupedTree(scene, boxes, curves).groups(), 1u);
+  const std::vector<uint32_t> mixed{first, first - 1, first - 2, first + 1};
+  EXPECT_EQ(GroupedTree(scene, boxes, mixed).groups(), 3u);
+}
+
 TEST(GroupedTree, TakesManyEqualBoxesAndAFlatScene) {
   Scene scene = test::empty_scene();
   test::add_floor(scene, 1.0f);

@@ -5,6 +5,8 @@
 #include "tests/core/scene/gltf_sample.h"
 #include "tests/temporary_folder.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 namespace hybray {
@@ -201,6 +203,21 @@ TEST_F(Overlay, RemovedMaterialsTakeTheirTrianglesWithThem) {
   refuse("/remove_materials/0", "did you mean 'leaves'?", [](json& o) { o["remove_materials"] = {"leavs"}; });
   overlay["remove_materials"] = {"leaves", "paint"};
   expect_refused(overlay.dump(), "place.json", "no surfaces");
+}
+
+TEST_F(Overlay, RemovedMaterialsTakeTheirCurvesAlong) {
+  json overlay = sample();
+  overlay["source"] = json::parse(R"({"generator": "meadow", "triangles": 8192})");
+  const Scene all = load(overlay);
+  overlay["remove_materials"] = {"grass"};
+  const Scene kept = load(overlay);
+  const auto count = [&](const std::string& material) {
+    return std::count_if(all.curves.begin(), all.curves.end(),
+                         [&](const RoundCurve& c) { return all.materials[c.material].name == material; });
+  };
+  EXPECT_GT(count("grass"), 1000);
+  EXPECT_EQ(static_cast<ptrdiff_t>(kept.curves.size()), count("straw") + count("reed"));
+  EXPECT_EQ(kept.triangle_count(), all.triangle_count());
 }
 
 TEST_F(Overlay, TheHashCoversWhatTheOverlayChanges) {

@@ -2,6 +2,7 @@
 
 #include "core/base/parallel.h"
 #include "core/metrics/verdict_table.h"
+#include "tests/core/curve_truth.h"
 #include "tests/core/ssrm/main_view.h"
 #include "tests/core/test_scenes.h"
 
@@ -126,6 +127,33 @@ TEST(HitChecks, AnAnalyticSphereIsMetAtItsClosedForm) {
       ++compared;
     }
     EXPECT_GT(compared, 500) << label(how);
+    const metrics::VerdictTable table = c.judge(results);
+    EXPECT_EQ(table.right, table.hits());
+  }
+}
+
+TEST(HitChecks, ACurveIsMetWhereItsDistanceIsZero) {
+  Scene scene = test::empty_scene();
+  test::add_rectangle(scene, vec3(-10, 0, 4), vec3(20, 0, 0), vec3(0, 0, -12));
+  RoundCurve post;
+  post.control = {vec4(0.2f, -0.1f, -3, 0.5f), vec4(0.2f, 0.9f, -3, 0.45f), vec4(0.4f, 1.6f, -3, 0.35f),
+                  vec4(0.8f, 2.2f, -3, 0.2f)};
+  append_curve(scene, post);
+  const Checked c(scene, Camera{"c", vec3(0, 1.2f, 2.0f), vec3(0.2f, 0.6f, -3)}, 160, 90);
+  const auto curve = static_cast<uint32_t>(scene.first_curve());
+  const test::CurveTruth truth(post);
+  for (const HitCheck how : {HitCheck::triangle, HitCheck::strict}) {
+    const MarchResults results = c.check(how);
+    int compared = 0;
+    for (size_t i = 0; i < results.size(); ++i) {
+      if (results.verdict[i] != Verdict::hit || c.main.gbuffer.primitive[results.pixel[i]] != curve) continue;
+      const auto t =
+          truth.first_hit(dvec3(c.main.rays.origin(i)), dvec3(c.main.rays.direction(i)), 20.0, 1.6);
+      ASSERT_TRUE(t.has_value()) << i;
+      EXPECT_NEAR(results.distance[i], *t, 2e-6) << i;
+      ++compared;
+    }
+    EXPECT_GT(compared, 60) << label(how);
     const metrics::VerdictTable table = c.judge(results);
     EXPECT_EQ(table.right, table.hits());
   }

@@ -5,6 +5,7 @@
 #include "tests/core/test_scenes.h"
 
 #include <algorithm>
+#include <optional>
 
 #include <gtest/gtest.h>
 
@@ -148,8 +149,8 @@ TEST_P(MarchLanes, RunsMarchTheirRaysAsTheFullMarchDoesAndTouchNoOther) {
   use_lanes_target("");
 }
 
-// Rays whose origin has been rounded away from their own pixel, as far from the world's origin: whatever they
-// find, it is on the screen, and the same in lanes.
+// Rays whose origin has been rounded away from their own pixel, as far from the world's origin: what they find
+// means nothing, but it is on the screen, is no background pixel, and is the same on every instruction set.
 TEST_P(MarchLanes, RaysThatStartBesideTheirPixelStayOnTheScreen) {
   const Scene scene = test::triangle_soup(300, 1.0f, 2.0f, 21);
   const Tracer tracer(scene, {.robust = true});
@@ -161,16 +162,24 @@ TEST_P(MarchLanes, RaysThatStartBesideTheirPixelStayOnTheScreen) {
     v.screen_rays.oy[i] += static_cast<float>(200.0 * random_unit(i, 1, 0, kSeed) - 100.0);
   }
   MarchOptions options{.marcher = GetParam().marcher, .ascent = GetParam().ascent};
-  const MarchResults scalar = v.march(options);
-  for (size_t i = 0; i < scalar.size(); ++i) {
-    if (scalar.verdict[i] != Verdict::hit) continue;
-    ASSERT_LT(scalar.pixel[i], 61u * 37u);
-    EXPECT_NE(v.gbuffer.primitive[scalar.pixel[i]], kNoPrimitive) << "a background pixel is not a HIT";
-  }
+  const auto expect_sound = [&](const MarchResults& results) {
+    for (size_t i = 0; i < results.size(); ++i) {
+      if (results.verdict[i] != Verdict::hit) continue;
+      ASSERT_LT(results.pixel[i], 61u * 37u);
+      ASSERT_NE(v.gbuffer.primitive[results.pixel[i]], kNoPrimitive);
+    }
+  };
+  expect_sound(v.march(options));
   options.code = MarchCode::lanes;
+  std::optional<MarchResults> first;
   for (const std::string& target : lanes_targets()) {
     use_lanes_target(target);
-    expect_same(v.march(options), scalar, target);
+    const MarchResults results = v.march(options);
+    expect_sound(results);
+    if (first)
+      expect_same(results, *first, target);
+    else
+      first = results;
   }
   use_lanes_target("");
 }
