@@ -26,7 +26,8 @@ AnalyticSurface posed(const AnalyticSurface& surface, const Pose& pose) {
   s.radius *= pose.scale, s.focal_length *= pose.scale;
   s.y0 = pose.scale * s.y0 + pose.offset.y, s.y1 = pose.scale * s.y1 + pose.offset.y;
   s.field.radius *= pose.scale, s.field.period *= pose.scale;
-  if (s.field.shape != DistanceField::Shape::gyroid) s.field.thickness *= pose.scale;  // of a gyroid, no length
+  if (s.field.shape != DistanceField::Shape::gyroid)
+    s.field.thickness *= pose.scale;  // of a gyroid, no length
   return s;
 }
 

@@ -149,8 +149,9 @@ TEST_P(MarchLanes, RunsMarchTheirRaysAsTheFullMarchDoesAndTouchNoOther) {
   use_lanes_target("");
 }
 
-// Rays whose origin has been rounded away from their own pixel, as far from the world's origin: what they find
-// means nothing, but it is on the screen, is no background pixel, and is the same on every instruction set.
+// Rays whose origin has been rounded away from their own pixel, as far from the world's origin: what they
+// find means nothing, but it is on the screen, is no background pixel, and is the same on every instruction
+// set.
 TEST_P(MarchLanes, RaysThatStartBesideTheirPixelStayOnTheScreen) {
   const Scene scene = test::triangle_soup(300, 1.0f, 2.0f, 21);
   const Tracer tracer(scene, {.robust = true});
