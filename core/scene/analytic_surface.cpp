@@ -2,6 +2,7 @@
 
 #include "core/base/check.h"
 #include "core/base/error.h"
+#include "core/base/float_box.h"
 
 #include <algorithm>
 #include <cmath>
@@ -117,13 +118,7 @@ Bounds3 bounds(const AnalyticSurface& s) {
     const double rim = s.center.y + 0.25 * s.radius * s.radius / s.focal_length;
     lower.y = std::min(s.center.y, rim), upper.y = std::max(s.center.y, rim);
   }
-  Bounds3 box;
-  for (int k = 0; k < 3; ++k) {
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    box.lower[k] = std::nextafter(static_cast<float>(lower[k]), -kInfinity);
-    box.upper[k] = std::nextafter(static_cast<float>(upper[k]), kInfinity);
-  }
-  return box;
+  return enclosing_box(lower, upper);
 }
 
 double extent(const AnalyticSurface& s) {

@@ -1,6 +1,7 @@
 #include "core/scene/round_curve.h"
 
 #include "core/base/error.h"
+#include "core/base/float_box.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,13 +49,7 @@ Bounds3 hull(const Controls& p) {
     lower = glm::min(lower, dvec3(c) - c.w);
     upper = glm::max(upper, dvec3(c) + c.w);
   }
-  Bounds3 box;
-  for (int k = 0; k < 3; ++k) {
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    box.lower[k] = std::nextafter(static_cast<float>(lower[k]), -kInfinity);
-    box.upper[k] = std::nextafter(static_cast<float>(upper[k]), kInfinity);
-  }
-  return box;
+  return enclosing_box(lower, upper);
 }
 
 dvec3 any_across(const dvec3& d) {
