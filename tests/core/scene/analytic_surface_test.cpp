@@ -35,6 +35,8 @@ double implicit(const AnalyticSurface& s, const dvec3& p) {
     case AnalyticSurface::Kind::paraboloid:
       return (q.x * q.x + q.z * q.z) / (4.0 * std::abs(s.focal_length)) -
              std::copysign(1.0, s.focal_length) * q.y;
+    case AnalyticSurface::Kind::field:
+      return value(s.field, q);
   }
   return 0.0;
 }
