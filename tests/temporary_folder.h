@@ -13,7 +13,9 @@ namespace hybray::test {
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "hybray_test_XXXXXX").string();
+    // mkdtemp replaces the last six letters.
+    std::string name =
+        (std::filesystem::temp_directory_path() / "hybray_test_").string() + std::string(6, 'X');
     if (!mkdtemp(name.data())) throw std::runtime_error("cannot make " + name);
     path_ = name;
   }
