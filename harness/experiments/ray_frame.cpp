@@ -40,12 +40,6 @@ PixelRaySettings ray_settings(const Point& point, const Scene& scene, uint64_t s
   return s;
 }
 
-DepthPyramid pyramid_of(const GBuffer& g) {
-  DepthPyramid pyramid(g.view.width(), g.view.height());
-  pyramid.build(g.depth, g.view.depth_sign(), g.view.background_depth());
-  return pyramid;
-}
-
 }  // namespace
 
 RayFrame::RayFrame(const Point& point, const SsrmSetup& setup, uint64_t seed)

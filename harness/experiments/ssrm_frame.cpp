@@ -23,13 +23,13 @@ View::Settings view_settings(const Point& point) {
                                                                      : DepthConvention::reversed};
 }
 
+}  // namespace
+
 DepthPyramid pyramid_of(const GBuffer& g) {
   DepthPyramid pyramid(g.view.width(), g.view.height());
   pyramid.build(g.depth, g.view.depth_sign(), g.view.background_depth());
   return pyramid;
 }
-
-}  // namespace
 
 SsrmSetup::SsrmSetup(const Point& point, Workspace& workspace, unsigned more_bits)
     : scene(workspace.scene(point.text("scene"))),

@@ -14,6 +14,9 @@
 
 namespace hybray {
 
+// The pyramid of a view's depth.
+DepthPyramid pyramid_of(const GBuffer& gbuffer);
+
 // How the main view of a point is made.
 struct SsrmSetup {
   const Scene& scene;

@@ -2,6 +2,7 @@
 
 #include "core/base/parallel.h"
 #include "core/gbuffer/facing_surface.h"
+#include "harness/experiments/ssrm_frame.h"
 
 #include <cmath>
 
@@ -14,12 +15,6 @@ GBuffer buffers(const Tracer& robust, const View& view, const DepthStorage& stor
     store_depths(g, robust.scene(), storage);
   if (difference) g.depth_derivatives = difference_derivatives(g.depth);
   return g;
-}
-
-DepthPyramid pyramid_of(const GBuffer& g) {
-  DepthPyramid pyramid(g.view.width(), g.view.height());
-  pyramid.build(g.depth, g.view.depth_sign(), g.view.background_depth());
-  return pyramid;
 }
 
 bool finite(const vec3& v) {
@@ -71,7 +66,6 @@ ssrm::MarchResults DisturbedFrame::march(ssrm::Marcher marcher) const {
   ssrm::MarchResults results;
   results.verdict.assign(rays.size(), ssrm::Verdict::rejected);
   results.pixel.assign(rays.size(), ssrm::kNoPixel);
-  if (listed.empty()) return results;
   ssrm::march_some(depth(), screen_rays, rays.pixel, listed,
                    {.code = ssrm::MarchCode::lanes, .marcher = marcher}, results);
   return results;
