@@ -19,6 +19,11 @@ struct Photon {
   uint16_t events = 0;         // specular events before this surface
   uint16_t missed_by_map = 0;  // 1: the path left the light where its visibility map has probability zero
 
+  // W, mean of the channels.
+  double mean_flux() const {
+    return (static_cast<double>(flux.x) + static_cast<double>(flux.y) + static_cast<double>(flux.z)) / 3.0;
+  }
+
   // |cos| of arrival with the shading normal / with the geometric normal: what turns flux per area of the
   // triangle into irradiance on the smooth surface that it stands for (Veach 1997, 5.3). 1 where the shading
   // normal turns away and the geometric one stands in; 0 where the light grazes.

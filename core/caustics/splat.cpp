@@ -11,12 +11,6 @@
 namespace hybray::caustics {
 namespace {
 
-double mean_flux(const Photon& photon) {
-  return (static_cast<double>(photon.flux.x) + static_cast<double>(photon.flux.y) +
-          static_cast<double>(photon.flux.z)) /
-         3.0;
-}
-
 // Whether the depth buffer shows the surface that the photon lies on.
 bool agrees(const GBuffer& camera, double w, const dvec2& place, int x, int y) {
   const double stored = camera.depth(x, y);
@@ -43,7 +37,7 @@ SplatCounts splat(const PhotonBlocks& photons, const GBuffer& camera, const opti
   parallel_blocks(blocks.size(), 1, [&](size_t begin, size_t) {
     SplatCounts& counts = blocks[begin];
     for (const Photon& photon : photons.blocks()[begin]) {
-      const double flux = mean_flux(photon);
+      const double flux = photon.mean_flux();
       const dvec3 p(photon.position), n(photon.normal);
       const double w = view.view_depth(p);
       if (!(w > view.near() && w < view.far())) {

@@ -1,12 +1,10 @@
-// Photons counted in the regions of a scene's closed form, frame by frame.
+// Photons counted in the regions of a scene's closed form, against it.
 #pragma once
 
-#include "core/caustics/photon_blocks.h"
-#include "core/truth/closed_forms.h"
 #include "harness/experiments/experiment.h"
+#include "harness/experiments/region_flux.h"
 
 #include <optional>
-#include <vector>
 
 namespace hybray::caustics_parts {
 
@@ -14,6 +12,8 @@ class ClosedFormTally {
  public:
   // A scene without a closed form for this number of specular events leaves the tally idle.
   ClosedFormTally(const Scene& scene, int max_events);
+  ClosedFormTally(const ClosedFormTally&) = delete;
+  ClosedFormTally& operator=(const ClosedFormTally&) = delete;
 
   // The photons of one independent frame.
   void add(const caustics::PhotonBlocks& photons);
@@ -23,7 +23,7 @@ class ClosedFormTally {
 
  private:
   std::optional<truth::ClosedForm> form_;
-  std::vector<std::vector<double>> flux_;  // W by region and frame
+  std::optional<RegionFlux> flux_;
 };
 
 }  // namespace hybray::caustics_parts

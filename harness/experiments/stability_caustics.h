@@ -6,9 +6,9 @@
 #include "core/scene/pose.h"
 #include "core/truth/closed_forms.h"
 #include "harness/experiments/experiment.h"
+#include "harness/experiments/region_flux.h"
 
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace hybray {
@@ -32,7 +32,7 @@ struct Body {
 };
 Body make_body(const Point& point);
 
-// Flux by region and frame, against the closed form.
+// Flux in the regions of the closed form, against it. `body` must outlive it.
 class RegionTally {
  public:
   explicit RegionTally(const Body& body);
@@ -41,7 +41,7 @@ class RegionTally {
 
  private:
   const Body& body_;
-  std::vector<std::vector<double>> flux_;  // W by region and frame
+  std::optional<caustics_parts::RegionFlux> flux_;
 };
 
 // Irradiance in the middle of a `grazed_receiver` as splatting and photon maps estimate it.
@@ -60,12 +60,6 @@ class DensityTally {
   double exact_;                            // irradiance, W/m^2
   std::vector<double> splat_, photon_map_;  // estimate / exact, by frame
 };
-
-// A mean of independent values and its standard error; none of the latter for a single value.
-struct Estimate {
-  double mean = 0.0, standard_error = 0.0;
-};
-Estimate estimate_of(const std::vector<double>& values);
 
 // Optics alone: reflectance and directions at an interface, as rays in floats see it.
 void add_interface(Row& row, const Point& point, uint64_t seed);

@@ -80,7 +80,7 @@ void DensityTally::add(const LightPaths& paths) {
 
 void DensityTally::report(Row& row) const {
   const auto put = [&](const std::string& name, const std::vector<double>& ratios) {
-    const Estimate e = estimate_of(ratios);
+    const caustics_parts::Estimate e = caustics_parts::estimate_of(ratios);
     row[name + "_error_fraction"] = std::abs(e.mean - 1.0);
     row[name + "_standard_error_fraction"] = e.standard_error;
   };

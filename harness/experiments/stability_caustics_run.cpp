@@ -113,7 +113,6 @@ void trace(Row& row, const Point& point, uint64_t seed) {
 Row run(const Point& point, Workspace& workspace) {
   Row row;
   add_keys(row, point);
-  row["refused"] = false;
   const uint64_t seed = workspace.settings().seed;
   if (point.text("body") == "interface") {
     add_interface(row, point, seed);
@@ -121,9 +120,9 @@ Row run(const Point& point, Workspace& workspace) {
   }
   try {
     trace(row, point, seed);
-  } catch (const InputError&) {
+  } catch (const InputError& error) {
     // Rounding can leave a scene that is none: that, too, is where the method ends.
-    row["refused"] = true;
+    row["refused"] = std::string(error.what());
   }
   return row;
 }

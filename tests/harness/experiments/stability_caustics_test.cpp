@@ -53,7 +53,7 @@ TEST_F(StabilityCaustics, FillsDeclaredColumnsOnlyAndEveryKeyOfThem) {
       if (comparison_of(column) == Comparison::identity) {
         EXPECT_TRUE(row.contains(column.name)) << column.name;
       }
-    EXPECT_FALSE(std::get<bool>(row.at("refused"))) << body;
+    EXPECT_FALSE(row.contains("refused")) << body;
     EXPECT_EQ(integer(row, "negative_or_nan"), 0) << body;
   }
 }
@@ -157,7 +157,7 @@ TEST_F(StabilityCaustics, FarFromTheOriginItBreaksAndRebasingBringsItBack) {
 TEST_F(StabilityCaustics, ScaleByPowersOfTwoChangesNoDigit) {
   const Row one = run({}), large = run({{"scale", 1024.0}}), small = run({{"scale", 0x1p-10}});
   for (const Row* row : {&large, &small})
-    EXPECT_NEAR(number(*row, "error_fraction"), number(one, "error_fraction"), 1e-3);
+    EXPECT_EQ(number(*row, "error_fraction"), number(one, "error_fraction"));
 }
 
 }  // namespace
