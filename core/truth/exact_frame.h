@@ -1,7 +1,7 @@
-// What a screen-space march must find, in double precision from the geometry on: planes of pixels, mirror
-// rays, the walk through every pixel and its closer look are computed anew here, without device depth, near
-// and far planes in the depth's encoding, float rays or offsets. Taken over are the vertices, and which
-// primitive a pixel sees.
+// What a screen-space march must find, in double precision from the geometry on: pixels as planes in 1/w,
+// mirror rays from the surface itself, the walk through every pixel and its closer look, without device depth
+// and its encoding, float rays or offsets. Taken over are the vertices, which primitive a pixel sees, and
+// what is in double anyway and tested for itself: View, the planes of triangle_plane.h, geometric normals.
 #pragma once
 
 #include "core/base/image2d.h"
