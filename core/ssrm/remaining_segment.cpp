@@ -36,6 +36,11 @@ void centre_segments(const RayStream& rays, const View& view, const Bounds3& bou
   });
 }
 
+bool answers_differ(float from_origin, float from_start) {
+  return from_origin != from_start &&
+         !(std::abs(from_origin - from_start) <= 0x1p-20f * std::min(from_origin, from_start));
+}
+
 void build_conservative(const GBuffer& gbuffer, const Scene& scene, ExactSegments& segments) {
   make_conservative_depth(gbuffer, scene, segments.depth);
   const int sign = gbuffer.view.depth_sign();

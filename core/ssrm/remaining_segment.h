@@ -19,6 +19,11 @@ void centre_segments(const RayStream& rays, const View& view, const Bounds3& bou
                      const std::vector<float>& proved, std::span<const uint32_t> which,
                      std::vector<float>& t_near);
 
+// Whether two distances of one ray, traced from its origin and from its start distance, are of different
+// points: by more than 2^-20 of them. A packet orders boxes for all of its rays, so that start distances can
+// decide which of two triangles answers at an edge that they share, and these round differently.
+bool answers_differ(float from_origin, float from_start);
+
 // What exact_segments() needs besides its input, kept between runs.
 struct ExactSegments {
   ConservativeDepth depth;

@@ -67,6 +67,9 @@ std::vector<Column> columns() {
           share_of_rays("segment_changed_fraction", lower,
                         "unresolved rays whose answer changes with the centre segment / unresolved rays"),
           share_of_rays("segment_exact_changed_fraction", lower, "the same of the exact segment"),
+          share_of_rays(
+              "segment_exact_changed_timed_fraction", lower,
+              "the same of the tracer that is timed, by more than rounding, in the mode where most change"),
           share_of_rays("segment_centre_proved_fraction", higher,
                         "start distance / true distance, mean over the unresolved rays that hit something"),
           share_of_rays("segment_exact_proved_fraction", higher, "the same of the exact segment"),

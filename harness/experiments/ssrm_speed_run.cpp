@@ -35,7 +35,23 @@ SegmentPrice price_of(const Tracer& robust, const RayStream& rays, std::span<con
   return price;
 }
 
-void add_segments(Row& row, const SsrmSetup& setup, const SsrmFrame& frame, Designs& d) {
+// Rays whose answer from `t_near` differs from that from their origin, in the mode where most do.
+uint64_t most_changed(const Tracer& tracer, const RayStream& rays, std::span<const uint32_t> which,
+                      const std::vector<float>& t_near) {
+  HitStream from_origin, from_there;
+  from_origin.resize(rays.size()), from_there.resize(rays.size());
+  uint64_t most = 0;
+  for (const TraceMode mode : kAllTraceModes) {
+    tracer.trace_some(rays, which, from_origin, mode);
+    tracer.trace_some(rays, which, from_there, mode, t_near);
+    most = std::max(most, static_cast<uint64_t>(std::ranges::count_if(which, [&](uint32_t i) {
+                      return ssrm::answers_differ(from_origin.t[i], from_there.t[i]);
+                    })));
+  }
+  return most;
+}
+
+void add_segments(Row& row, const SsrmSetup& setup, const SsrmFrame& frame, const Tracer& timed, Designs& d) {
   const RayStream& rays = frame.rays();
   ssrm::MarchResults results = d.buffers.results;
   results.ask_proved();
@@ -51,6 +67,8 @@ void add_segments(Row& row, const SsrmSetup& setup, const SsrmFrame& frame, Desi
   const SegmentPrice exact = price_of(setup.robust, rays, unresolved, d.exact.t_near, truth);
   row["segment_changed_fraction"] = share(centre.changed, unresolved.size());
   row["segment_exact_changed_fraction"] = share(exact.changed, unresolved.size());
+  row["segment_exact_changed_timed_fraction"] =
+      share(most_changed(timed, rays, unresolved, d.exact.t_near), unresolved.size());
   if (centre.hits > 0) {
     row["segment_centre_proved_fraction"] = centre.proved / static_cast<double>(centre.hits);
     row["segment_exact_proved_fraction"] = exact.proved / static_cast<double>(exact.hits);
@@ -131,7 +149,7 @@ Row run(const Point& point, Workspace& workspace) {
   designs.compact(designs.buffers.results);
   row["alpha"] = share(hits_of(designs.buffers.results), rays.size());
   row["steps_per_ray"] = share(designs.buffers.results.steps, rays.size());
-  if (point.boolean("remaining_segment")) add_segments(row, setup, frame, designs);
+  if (point.boolean("remaining_segment")) add_segments(row, setup, frame, tracer, designs);
   if (workspace.settings().timing && rays.size() > 0)
     add_times(row, point, frame, tracer, designs, predictors, workspace.settings().seed);
   return row;

@@ -144,6 +144,7 @@ TEST_P(SsrmSpeedTest, APredictedMarchFindsNoMoreThanTheWhole) {
 TEST_P(SsrmSpeedTest, TheExactSegmentChangesNothingAndItsMissesAreTrue) {
   const Row row = run({});
   EXPECT_EQ(number(row, "segment_exact_changed_fraction"), 0.0);
+  EXPECT_EQ(number(row, "segment_exact_changed_timed_fraction"), 0.0);
   EXPECT_GT(number(row, "certified_miss_fraction"), 0.0);
   EXPECT_EQ(number(row, "certified_false_fraction"), 0.0);
   EXPECT_LE(number(row, "certified_miss_fraction"), 1.0 - number(row, "alpha"));
