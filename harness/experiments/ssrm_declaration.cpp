@@ -24,7 +24,7 @@ std::vector<Parameter> parameters() {
                  "four samples "
                  "without intersection as the paper's does."),
           choice(
-              "march_code", "scalar", {"scalar", "lanes"},
+              "march_code", "lanes", {"scalar", "lanes"},
               "Marcher as scalar code, or many rays at a time in vector lanes: the same results, less time."),
           integer("mirror_depth", "", 1, 1, 1, "Number of mirror reflections along a path."),
           step_budget_parameter("Depth samples that one ray may read; 0: no limit."),
