@@ -31,6 +31,10 @@ struct Axis {
   int entry_border(int pixel) const { return forward() ? pixel : pixel + 1; }
   int pixel_after(int border) const { return forward() ? border : border - 1; }
 
+  // Whether a ray that runs back along this axis is still beyond the screen's far edge at l: its origin is
+  // beside the screen, away from its own pixel. (One that runs forward there never comes in.)
+  bool beyond(Real l) const { return !forward() && crossing(size) > l; }
+
   // The ray, in the level's cell that holds `pixel` at parameter l, in terms of the level below: a pixel of
   // the half that it is in. Decided by the same comparison that a pixel-by-pixel walk makes.
   int descend(int pixel, int level, Real l) const {
@@ -75,6 +79,8 @@ struct CellWalk {
     }
     return inside;
   }
+
+  bool beyond_screen() const { return x.beyond(l) || y.beyond(l); }
 
   // From `level` >= 1 to the one below.
   void descend(int level) {

@@ -27,7 +27,7 @@ struct MarchOptions {
   uint64_t step_budget = 0;  // depth samples a ray may read; 0 = as many as it needs (it always ends)
   MarchCode code = MarchCode::scalar;
   Marcher marcher = Marcher::paper;
-  bool correct = true;             // false: a ray that stops is left at `correction`, without a closer look
+  bool correct = true;  // false: a ray that stops is left at `correction`, with the pixel that stopped it
   Ascent ascent = Ascent::parent;  // of marcher `plane`; the paper's goes by iterations
 };
 

@@ -20,6 +20,7 @@ Correction march_paper_ray(const DepthView& view, const ScreenRay<float>& ray, u
   const auto first_exit = walk.exit(0);
   if (ray.l_end <= first_exit.l()) return {ray.end, kNoPixel, ray.l_end};
   if (!walk.advance(first_exit)) return {Verdict::offscreen, kNoPixel, walk.l};
+  if (walk.beyond_screen()) return {ray.l_end <= 0.0f ? ray.end : Verdict::offscreen, kNoPixel, 0.0f};
 
   // Stage 2: march. A level up after an iteration without intersection, a level down to redo the cell where
   // there was one.
@@ -51,7 +52,7 @@ Correction march_paper_ray(const DepthView& view, const ScreenRay<float>& ray, u
   }
 
   // Stage 3: correction with slanted planes.
-  Correction c{Verdict::correction, kNoPixel};
+  Correction c{Verdict::correction, static_cast<uint32_t>(walk.py * view.width() + walk.px)};
   if (options.correct) c = correct(view, promoted(ray), {walk.px, walk.py}, walk.previous(), origin);
   c.l = walk.l;
   return c;

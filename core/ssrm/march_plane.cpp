@@ -5,20 +5,6 @@
 namespace hybray::ssrm {
 namespace {
 
-// Whether the ray may be behind the texel's bound somewhere between `enter` and `leave`.
-bool may_be_behind(const SlantedTexel& texel, const ScreenRay<float>& ray, float center_x, float center_y,
-                   float enter, float leave) {
-  const float across = texel.slope_x() * (center_x - ray.ox) + texel.slope_y() * (center_y - ray.oy);
-  const float bound = (texel.depth - origin_with_slack(ray.oz)) - across;  // minus the ray's, at l = 0
-  const float slope = ray.dz - (texel.slope_x() * ray.dx + texel.slope_y() * ray.dy);
-  return std::max(enter * slope, leave * slope) > bound;
-}
-
-// Of a cell's square, pixels.
-float center(int cell, int level) {
-  return static_cast<float>(2 * cell + 1) * (0.5f * static_cast<float>(1 << level));
-}
-
 ScreenRay<double> promoted(const ScreenRay<float>& r) {
   return {r.ox, r.oy, r.oz, r.dx, r.dy, r.dz, r.l_end, r.end};
 }
@@ -56,19 +42,17 @@ Correction continue_plane_ray(const DepthView& view, const ScreenRay<float>& ray
     }
     const auto exit = walk.exit(level);
     const bool ends = ray.l_end <= exit.l();
-    const int cell_x = walk.px >> level, cell_y = walk.py >> level;
-    if (!clear && may_be_behind(bounds.at(level, cell_x, cell_y), ray, center(cell_x, level),
-                                center(cell_y, level), walk.l, ends ? ray.l_end : exit.l())) {
+    if (!clear && may_be_behind(bounds, level, walk.px, walk.py, ray, walk.l, ends ? ray.l_end : exit.l())) {
       if (level > 0) {
         walk.descend(level--);
         samples = 0;
         continue;
       }
-      if (!options.correct) return {Verdict::correction, kNoPixel, walk.l};
+      const auto here = static_cast<uint32_t>(walk.py * view.width() + walk.px);
+      if (!options.correct) return {Verdict::correction, here, walk.l};
       const PixelCrossing crossing = pixel_crossing(view, promoted(ray), walk.px, walk.py);
       if (crossing == PixelCrossing::behind) return {Verdict::behind, kNoPixel, walk.l};
-      if (crossing == PixelCrossing::hit)
-        return {Verdict::hit, static_cast<uint32_t>(walk.py * view.width() + walk.px), walk.l};
+      if (crossing == PixelCrossing::hit) return {Verdict::hit, here, walk.l};
     }
     if (ends) return {ray.end, kNoPixel, ray.l_end};
     if (!walk.advance(exit)) return {Verdict::offscreen, kNoPixel, walk.l};
@@ -92,6 +76,7 @@ Correction march_plane_ray(const DepthView& view, const ScreenRay<float>& ray, u
   const auto first_exit = walk.exit(0);
   if (ray.l_end <= first_exit.l()) return {ray.end, kNoPixel, ray.l_end};
   if (!walk.advance(first_exit)) return {Verdict::offscreen, kNoPixel, walk.l};
+  if (walk.beyond_screen()) return {ray.l_end <= 0.0f ? ray.end : Verdict::offscreen, kNoPixel, 0.0f};
   return continue_plane_ray(view, ray, {.x = walk.px, .y = walk.py, .l = walk.l}, options, steps);
 }
 

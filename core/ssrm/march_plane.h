@@ -10,6 +10,7 @@
 #include "core/ssrm/correction.h"
 #include "core/ssrm/march_options.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace hybray::ssrm {
@@ -25,6 +26,24 @@ inline float origin_with_slack(float oz) {
 // their sum. By less than that a ray is not known to be behind a plane; nor is it known in which pixel it met
 // a plane that it was behind by less where it came in: then it is UNKNOWN (`behind`), not a HIT.
 inline constexpr double kBufferRounding = 0x1p-22;
+
+// Whether the ray may be behind the texel's bound somewhere between `enter` and `leave`; center: of the
+// texel's square, pixels.
+inline bool may_be_behind(const SlantedTexel& texel, const ScreenRay<float>& ray, float center_x,
+                          float center_y, float enter, float leave) {
+  const float across = texel.slope_x() * (center_x - ray.ox) + texel.slope_y() * (center_y - ray.oy);
+  const float bound = (texel.depth - origin_with_slack(ray.oz)) - across;  // minus the ray's, at l = 0
+  const float slope = ray.dz - (texel.slope_x() * ray.dx + texel.slope_y() * ray.dy);
+  return std::max(enter * slope, leave * slope) > bound;
+}
+// The same for the texel of `level` that holds pixel (x, y).
+inline bool may_be_behind(const SlantedPyramid& bounds, int level, int x, int y, const ScreenRay<float>& ray,
+                          float enter, float leave) {
+  const int cell_x = x >> level, cell_y = y >> level;
+  const float half = 0.5f * static_cast<float>(1 << level);
+  return may_be_behind(bounds.at(level, cell_x, cell_y), ray, static_cast<float>(2 * cell_x + 1) * half,
+                       static_cast<float>(2 * cell_y + 1) * half, enter, leave);
+}
 
 // Where a ray is with respect to the plane of one pixel while it is inside that pixel. In double, from the
 // float ray and buffers.

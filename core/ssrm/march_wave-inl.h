@@ -301,6 +301,14 @@ HWY_INLINE void start(const WaveJob& job, const Rule& rule, MarchWave& w) {
     const VF ly = p.y.crossing(hn::Add(to_float(p.y.cell), p.y.forward));
     p.l = hn::Min(lx, ly);
     p.live = hn::AndNot(hn::Le(p.l_end, p.l), here);
+    // Nor could one that is beyond the screen (CellWalk::beyond_screen) be kept in its cells.
+    const auto beyond = [&](const AxisLanes& axis, int32_t pixels) HWY_ATTR {
+      const VF far_edge = axis.crossing(hn::Set(df, static_cast<float>(pixels)));
+      return hn::And(hn::Lt(axis.inverse, hn::Zero(df)), hn::Gt(far_edge, p.l));
+    };
+    const M outside = hn::And(p.live, hn::Or(beyond(p.x, job.width), beyond(p.y, job.height)));
+    p.l_end = hn::IfThenZeroElse(outside, p.l_end);
+    p.live = hn::AndNot(outside, p.live);
     p.x.cell = add_where(as_int(hn::Le(lx, p.l)), p.x.cell, p.x.step);
     p.y.cell = add_where(as_int(hn::Le(ly, p.l)), p.y.cell, p.y.step);
     out = write_back(p, at, out, here, w);

@@ -26,7 +26,7 @@ size_t write_results(const ScreenRays& rays, int width, const MarchWave::Ended& 
     const int32_t how = ended.how[i], pixel = ended.y[i] * width + ended.x[i];
     const Verdict at_end = rays.l_end[ray] <= ended.l[i] ? rays.end[ray] : Verdict::offscreen;
     results.verdict[ray] = how == kAtEnd ? at_end : kVerdictOf[how];
-    results.pixel[ray] = how == kHit ? static_cast<uint32_t>(pixel) : kNoPixel;
+    results.pixel[ray] = how == kHit || how == kStopped ? static_cast<uint32_t>(pixel) : kNoPixel;
     cleared += how == kCleared;
     if (proves) results.proved[ray] = ended.l[i];
   }

@@ -32,7 +32,8 @@ constexpr uint32_t kNoPixel = 0xffffffffu;  // the paper's (-1, -1)
 // One result for each ray, in the order of the rays.
 struct MarchResults {
   std::vector<Verdict> verdict;
-  std::vector<uint32_t> pixel;  // row-major index of the accepted pixel of a HIT, else kNoPixel
+  std::vector<uint32_t> pixel;  // row-major index of the accepted pixel of a HIT, or of that which stopped a
+                                // ray without a closer look (MarchOptions::correct), else kNoPixel
   std::vector<float> distance;  // metres, where a HIT lies by who found or checked it; not finite, or the
                                 // list empty: where the ray meets the accepted pixel's plane
   uint64_t steps = 0;           // depth samples read, all rays together

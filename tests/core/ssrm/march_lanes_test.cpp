@@ -162,27 +162,32 @@ TEST_P(MarchLanes, RaysThatStartBesideTheirPixelStayOnTheScreen) {
     v.screen_rays.ox[i] += static_cast<float>(200.0 * random_unit(i, 0, 0, kSeed) - 100.0);
     v.screen_rays.oy[i] += static_cast<float>(200.0 * random_unit(i, 1, 0, kSeed) - 100.0);
   }
-  MarchOptions options{.marcher = GetParam().marcher, .ascent = GetParam().ascent};
   const auto expect_sound = [&](const MarchResults& results) {
+    size_t stopped = 0;
     for (size_t i = 0; i < results.size(); ++i) {
-      if (results.verdict[i] != Verdict::hit) continue;
-      ASSERT_LT(results.pixel[i], 61u * 37u);
+      if (results.pixel[i] == kNoPixel) continue;
+      ASSERT_LT(results.pixel[i], v.gbuffer.depth.size());
       ASSERT_NE(v.gbuffer.primitive[results.pixel[i]], kNoPrimitive);
+      ++stopped;
     }
+    EXPECT_GT(stopped, 20u);
   };
-  expect_sound(v.march(options));
-  options.code = MarchCode::lanes;
-  std::optional<MarchResults> first;
-  for (const std::string& target : lanes_targets()) {
-    use_lanes_target(target);
-    const MarchResults results = v.march(options);
-    expect_sound(results);
-    if (first)
-      expect_same(results, *first, target);
-    else
-      first = results;
+  for (const bool correct : {true, false}) {
+    MarchOptions options{.marcher = GetParam().marcher, .correct = correct, .ascent = GetParam().ascent};
+    expect_sound(v.march(options));
+    options.code = MarchCode::lanes;
+    std::optional<MarchResults> first;
+    for (const std::string& target : lanes_targets()) {
+      use_lanes_target(target);
+      const MarchResults results = v.march(options);
+      expect_sound(results);
+      if (first)
+        expect_same(results, *first, target);
+      else
+        first = results;
+    }
+    use_lanes_target("");
   }
-  use_lanes_target("");
 }
 
 INSTANTIATE_TEST_SUITE_P(Marchers, MarchLanes, testing::ValuesIn(kKinds),
