@@ -12,15 +12,6 @@ PixelSpan pixel_span(const DepthView& view, const ScreenRay<double>& ray, int x,
           std::min({ax.crossing(ax.exit_border(x, 0)), ay.crossing(ay.exit_border(y, 0)), ray.l_end})};
 }
 
-PlaneGap plane_gap(const PixelPlane& p, const ScreenRay<double>& ray, int x, int y) {
-  return {ray.oz - p.center - p.slope_x * (ray.ox - (x + 0.5)) - p.slope_y * (ray.oy - (y + 0.5)),
-          ray.dz - p.slope_x * ray.dx - p.slope_y * ray.dy};
-}
-
-PlaneGap plane_gap(const DepthView& view, const ScreenRay<double>& ray, int x, int y) {
-  return plane_gap(pixel_plane(view, x, y), ray, x, y);
-}
-
 SlantedTest slanted_test(const DepthView& view, const ScreenRay<double>& ray, int x, int y) {
   const PixelSpan span = pixel_span(view, ray, x, y);
   const PlaneGap gap = plane_gap(view, ray, x, y);

@@ -42,8 +42,13 @@ struct PlaneGap {
   double at(double l) const { return offset + l * slope; }
   double crossing() const { return -offset / slope; }
 };
-PlaneGap plane_gap(const PixelPlane& plane, const ScreenRay<double>& ray, int x, int y);
-PlaneGap plane_gap(const DepthView& view, const ScreenRay<double>& ray, int x, int y);
+inline PlaneGap plane_gap(const PixelPlane& p, const ScreenRay<double>& ray, int x, int y) {
+  return {ray.oz - p.center - p.slope_x * (ray.ox - (x + 0.5)) - p.slope_y * (ray.oy - (y + 0.5)),
+          ray.dz - p.slope_x * ray.dx - p.slope_y * ray.dy};
+}
+inline PlaneGap plane_gap(const DepthView& view, const ScreenRay<double>& ray, int x, int y) {
+  return plane_gap(pixel_plane(view, x, y), ray, x, y);
+}
 
 // The slanted test. Evaluated in double from the float ray: once a ray, and free of the rounding that would
 // open cracks between neighbours' planes.

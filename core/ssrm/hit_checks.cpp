@@ -4,7 +4,8 @@
 #include "core/base/parallel.h"
 #include "core/scene/primitive_hit.h"
 #include "core/scene/surface_point.h"
-#include "core/ssrm/cell_walk.h"
+#include "core/ssrm/compaction.h"
+#include "core/ssrm/march.h"
 
 #include <algorithm>
 #include <array>
@@ -57,40 +58,74 @@ bool agreed_around(const SurfaceView& surfaces, const RayStream& rays, const Scr
   return true;
 }
 
+// Calls passes(i, steps) for every HIT; those that do not pass become UNKNOWN.
+template <class Test>
+CheckCounts test_hits(MarchResults& results, const Test& passes) {
+  std::atomic<uint64_t> checked{0}, rejected{0}, steps{0};
+  parallel_blocks(results.size(), 1024, [&](size_t begin, size_t end) {
+    uint64_t mine = 0, failed = 0, read = 0;
+    for (size_t i = begin; i < end; ++i) {
+      if (results.verdict[i] != Verdict::hit) continue;
+      ++mine;
+      if (passes(i, read)) continue;
+      ++failed;
+      results.verdict[i] = Verdict::rejected;
+      results.pixel[i] = kNoPixel;
+    }
+    checked += mine, rejected += failed, steps += read;
+  });
+  return {checked, rejected, steps};
+}
+
 struct Checker {
   const SurfaceView& surfaces;
-  const DepthPyramid* neighbourhood;
   const RayStream& rays;
   const ScreenRays& screen_rays;
+  MarchResults& results;
 
-  PathFindings search(size_t i, double t, bool with_primitives) const {
-    const double l = parameter_of(rays, i, surfaces.gbuffer.view, t);
-    return search_path(surfaces, *neighbourhood, rays, screen_rays, i, l, with_primitives);
+  double on_plane(size_t i) const {
+    return plane_distance(surfaces.depth, screen_rays, rays, surfaces.gbuffer.view, i, results.pixel[i]);
   }
-  bool free_of_doubt(const PathFindings& found, size_t i, uint32_t pixel, double t) const {
-    return !found.doubtful || t - *found.doubtful <= tolerance(surfaces, rays, i, pixel, t);
+  std::optional<SurfaceCrossing> triangle_hit(size_t i) const {
+    if (const auto hit = block_hit(surfaces, rays, i, results.pixel[i])) return hit;
+    const double t = on_plane(i);
+    if (!agreed_around(surfaces, rays, screen_rays, i, results.pixel[i], t)) return std::nullopt;
+    return SurfaceCrossing{t, results.pixel[i]};
   }
-
-  bool passes_conservative(size_t i, uint32_t pixel, uint64_t& steps) const {
-    const double t = plane_distance(surfaces.depth, screen_rays, rays, surfaces.gbuffer.view, i, pixel);
-    const PathFindings found = search(i, t, false);
-    steps += found.steps;
-    return free_of_doubt(found, i, pixel, t);
+  // `claimed`, where there is one: the distances of those that pass, unrounded.
+  CheckCounts check_triangles(std::vector<double>* claimed) const {
+    results.distance.assign(results.size(), kNoDistance);
+    return test_hits(results, [&](size_t i, uint64_t&) {
+      const auto hit = triangle_hit(i);
+      if (!hit) return false;
+      results.distance[i] = static_cast<float>(hit->distance), results.pixel[i] = hit->pixel;
+      if (claimed) (*claimed)[i] = hit->distance;
+      return true;
+    });
   }
-  std::optional<SurfaceCrossing> triangle_hit(size_t i, uint32_t pixel) const {
-    if (const auto hit = block_hit(surfaces, rays, i, pixel)) return hit;
-    const double t = plane_distance(surfaces.depth, screen_rays, rays, surfaces.gbuffer.view, i, pixel);
-    if (!agreed_around(surfaces, rays, screen_rays, i, pixel, t)) return std::nullopt;
-    return SurfaceCrossing{t, pixel};
-  }
-  std::optional<SurfaceCrossing> strict_hit(size_t i, uint32_t pixel, uint64_t& steps) const {
-    const auto last = triangle_hit(i, pixel);
-    if (!last) return last;
-    const PathFindings found = search(i, last->distance, true);
-    steps += found.steps;
-    const SurfaceCrossing first = found.met && found.met->distance < last->distance ? *found.met : *last;
-    if (!free_of_doubt(found, i, first.pixel, first.distance)) return std::nullopt;
-    return first;
+  // With primitives: HITs are at the claimed distances, and a primitive met before is the HIT. Without: they
+  // are at their pixels' planes.
+  CheckCounts check_paths(PathCheck& path, bool with_primitives) const {
+    compact_hits(results, path.which);
+    march_some(path.neighbourhood.view(), screen_rays, rays.pixel, path.which,
+               {.code = MarchCode::lanes, .marcher = Marcher::plane, .correct = false}, path.marched);
+    CheckCounts counts = test_hits(results, [&](size_t i, uint64_t& steps) {
+      double t = with_primitives ? path.claimed[i] : on_plane(i);
+      std::optional<PathStop> stop;
+      if (path.marched.verdict[i] == Verdict::correction)
+        stop = {path.marched.pixel[i], path.marched.proved[i]};
+      const double l_end = parameter_of(rays, i, surfaces.gbuffer.view, t);
+      const PathFindings found =
+          search_path(surfaces, path.neighbourhood, rays, screen_rays, i, l_end, stop, with_primitives);
+      steps += found.steps;
+      if (found.met && found.met->distance < t) {
+        t = found.met->distance;
+        results.distance[i] = static_cast<float>(t), results.pixel[i] = found.met->pixel;
+      }
+      return !found.doubtful || t - *found.doubtful <= tolerance(surfaces, rays, i, results.pixel[i], t);
+    });
+    counts.steps += path.marched.steps;
+    return counts;
   }
 };
 
@@ -147,40 +182,29 @@ std::optional<SurfaceCrossing> block_hit(const SurfaceView& surfaces, const RayS
   return nearest;
 }
 
-CheckCounts check_hits(const SurfaceView& surfaces, const DepthPyramid* neighbourhood, const RayStream& rays,
+CheckCounts check_hits(const SurfaceView& surfaces, PathCheck* path, const RayStream& rays,
                        const ScreenRays& screen_rays, HitCheck check, MarchResults& results) {
   HYBRAY_CHECK_EQ(results.size(), rays.size());
-  HYBRAY_CHECK(neighbourhood || !needs_neighbourhood(check));
-  if (check == HitCheck::none) return {};
-  const bool measures = check == HitCheck::triangle || check == HitCheck::strict;
-  if (measures) results.distance.assign(rays.size(), kNoDistance);
-  const Checker checker{surfaces, neighbourhood, rays, screen_rays};
-  std::atomic<uint64_t> checked{0}, rejected{0}, steps{0};
-  parallel_blocks(rays.size(), 1024, [&](size_t begin, size_t end) {
-    uint64_t mine = 0, failed = 0, read = 0;
-    for (size_t i = begin; i < end; ++i) {
-      if (results.verdict[i] != Verdict::hit) continue;
-      ++mine;
-      const uint32_t pixel = results.pixel[i];
-      bool passes = false;
-      if (measures) {
-        const auto hit =
-            check == HitCheck::strict ? checker.strict_hit(i, pixel, read) : checker.triangle_hit(i, pixel);
-        passes = hit.has_value();
-        if (hit) results.distance[i] = static_cast<float>(hit->distance), results.pixel[i] = hit->pixel;
-      } else {
-        passes = check == HitCheck::continuity
-                     ? continuous_around(surfaces.depth, place_of(surfaces.depth, pixel))
-                     : checker.passes_conservative(i, pixel, read);
-      }
-      if (passes) continue;
-      ++failed;
-      results.verdict[i] = Verdict::rejected;
-      results.pixel[i] = kNoPixel;
+  HYBRAY_CHECK(path || !checks_path(check));
+  const Checker checker{surfaces, rays, screen_rays, results};
+  switch (check) {
+    case HitCheck::none:
+      break;
+    case HitCheck::triangle:
+      return checker.check_triangles(nullptr);
+    case HitCheck::continuity:
+      return test_hits(results, [&](size_t i, uint64_t&) {
+        return continuous_around(surfaces.depth, place_of(surfaces.depth, results.pixel[i]));
+      });
+    case HitCheck::conservative:
+      return checker.check_paths(*path, false);
+    case HitCheck::strict: {
+      const CheckCounts triangles = checker.check_triangles(&path->claimed);
+      const CheckCounts paths = checker.check_paths(*path, true);
+      return {triangles.checked, triangles.rejected + paths.rejected, paths.steps};
     }
-    checked += mine, rejected += failed, steps += read;
-  });
-  return {checked, rejected, steps};
+  }
+  return {};
 }
 
 }  // namespace hybray::ssrm

@@ -15,20 +15,34 @@ enum class HitCheck : uint8_t {
 };
 const char* label(HitCheck check);
 
-// Whether `check` needs the neighbourhood pyramid.
-constexpr bool needs_neighbourhood(HitCheck check) {
+// Whether `check` looks at paths.
+constexpr bool checks_path(HitCheck check) {
   return check >= HitCheck::conservative;
 }
 
 struct CheckCounts {
   uint64_t checked = 0, rejected = 0;
-  uint64_t steps = 0;  // texels read of the neighbourhood pyramid
+  uint64_t steps = 0;  // texels read of the neighbourhood's bounds
+};
+
+// What checks of the path need besides their input, kept between runs.
+struct PathCheck {
+  SlantedBounds neighbourhood;  // bound_neighbourhood()
+  std::vector<uint32_t> which;  // rays whose path is looked at
+  MarchResults marched;         // of those, against the bounds
+  std::vector<double> claimed;  // metres, where `triangle` puts their HITs
+
+  PathCheck(const DepthView& depth, size_t rays)
+      : neighbourhood(depth.width(), depth.height()), claimed(rays) {
+    marched.resize(rays);
+    marched.ask_proved();
+  }
 };
 
 // Checks every HIT of `results`, all threads. `triangle` and `strict` also set the distance of the HITs that
-// pass to that of the primitive met, and their pixel to the one that stores it. `neighbourhood` may be null
-// where it is not needed.
-CheckCounts check_hits(const SurfaceView& surfaces, const DepthPyramid* neighbourhood, const RayStream& rays,
+// pass to that of the primitive met, and their pixel to the one that stores it. `path` may be null where it
+// is not needed.
+CheckCounts check_hits(const SurfaceView& surfaces, PathCheck* path, const RayStream& rays,
                        const ScreenRays& screen_rays, HitCheck check, MarchResults& results);
 
 // The nearest of the primitives in the 3x3 block around `pixel` that ray i meets inside that block, the one

@@ -2,17 +2,13 @@
 // of its own, so that each can be timed.
 #pragma once
 
+#include "core/ssrm/compaction.h"
 #include "core/ssrm/march.h"
 #include "core/tracer/tracer.h"
 
-#include <span>
 #include <vector>
 
 namespace hybray::ssrm {
-
-// Indices of the rays that go on to the general tracer, in order: all but HIT. (The paper's marcher counts
-// MISS, but its MISS holds at pixel centres only, so it is sent on.) `list` is reused from call to call.
-void compact_unresolved(const MarchResults& results, std::vector<uint32_t>& list);
 
 // Buffers that a hybrid run needs besides its input, kept between runs so that no run pays for allocation.
 struct HybridBuffers {

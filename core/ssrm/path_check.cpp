@@ -3,9 +3,11 @@
 #include "core/base/parallel.h"
 #include "core/scene/primitive_hit.h"
 #include "core/ssrm/cell_walk.h"
+#include "core/ssrm/march_plane.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace hybray::ssrm {
 namespace {
@@ -14,18 +16,19 @@ namespace {
 // the next one.
 constexpr double kReach = 1.0;
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Rounded toward the viewer.
+float below(double depth) {
+  const float rounded = static_cast<float>(depth);
+  return rounded > depth ? std::nextafter(rounded, -std::numeric_limits<float>::infinity()) : rounded;
+}
+
 // Pixels of the 3x3 block around (x, y) inside the screen.
 template <class Visit>
 void for_neighbours(const DepthView& depth, int x, int y, const Visit& visit) {
   for (int ny = std::max(y - 1, 0); ny <= std::min(y + 1, depth.height() - 1); ++ny)
     for (int nx = std::max(x - 1, 0); nx <= std::min(x + 1, depth.width() - 1); ++nx) visit(nx, ny);
-}
-
-// Nearest march depth of the plane of (nx, ny) over pixel (x, y).
-double reach(const DepthView& depth, int nx, int ny, int x, int y) {
-  const dvec2 slope = double(depth.depth_sign) * dvec2(depth.derivatives(nx, ny));
-  return depth.pyramid.at(0, nx, ny) + slope.x * (x - nx) + slope.y * (y - ny) -
-         0.5 * (std::abs(slope.x) + std::abs(slope.y));
 }
 
 // The planes next to pixel (x, y) that the ray passes between parameters `enter` and `leave`.
@@ -40,10 +43,10 @@ struct CellSearch {
   void operator()(int x, int y, double enter, double leave, PathFindings& found) const {
     const DepthView& depth = surfaces.depth;
     for_neighbours(depth, x, y, [&](int nx, int ny) {
-      const uint32_t primitive = surfaces.gbuffer.primitive(nx, ny);
-      if (primitive == kNoPrimitive || primitive == own) return;
       const PlaneGap gap = plane_gap(depth, ray, nx, ny);
       if (!(gap.at(enter) <= 0.0 && gap.at(leave) > 0.0)) return;
+      const uint32_t primitive = surfaces.gbuffer.primitive(nx, ny);
+      if (primitive == kNoPrimitive || primitive == own) return;
       const View& view = surfaces.gbuffer.view;
       if (with_primitives) {
         const auto t =
@@ -80,49 +83,65 @@ bool continuous_or_behind(const DepthView& depth, ivec2 a, ivec2 n) {
   return std::min(at_a, at_n) <= 0.5 * std::abs(glm::dot(slope_a - slope_n, step)) + rounding;
 }
 
-DepthPyramid neighbourhood_pyramid(const DepthView& depth) {
+void bound_neighbourhood(const DepthView& depth, SlantedBounds& bounds) {
   const int w = depth.width(), h = depth.height();
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  Image2D<float> nearest(w, h, kInfinity);
   parallel_blocks(static_cast<size_t>(h), 16, [&](size_t begin, size_t end) {
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
       for (int x = 0; x < w; ++x) {
-        double least = kInfinity;
-        for_neighbours(depth, x, y,
-                       [&](int nx, int ny) { least = std::min(least, reach(depth, nx, ny, x, y)); });
-        if (least < kInfinity) nearest(x, y) = std::nextafter(static_cast<float>(least), -kInfinity);
+        const PixelPlane own = pixel_plane(depth, x, y);
+        double flat = kInfinity, slanted = kInfinity;
+        for_neighbours(depth, x, y, [&](int nx, int ny) {
+          const PixelPlane plane = pixel_plane(depth, nx, ny);
+          const double center = plane.center + plane.slope_x * (x - nx) + plane.slope_y * (y - ny);
+          flat = std::min(flat, center - 0.5 * (std::abs(plane.slope_x) + std::abs(plane.slope_y)));
+          slanted = std::min(slanted, center - 0.5 * (std::abs(plane.slope_x - own.slope_x) +
+                                                      std::abs(plane.slope_y - own.slope_y)));
+        });
+        bounds.set(static_cast<size_t>(y) * static_cast<size_t>(w) + static_cast<size_t>(x), below(flat),
+                   below(slanted), vec2(dvec2(own.slope_x, own.slope_y)));
       }
   });
-  DepthPyramid pyramid(w, h);
-  pyramid.build(nearest, 1, kInfinity);
-  return pyramid;
+  bounds.build();
 }
 
-PathFindings search_path(const SurfaceView& surfaces, const DepthPyramid& neighbourhood,
+PathFindings search_path(const SurfaceView& surfaces, const SlantedBounds& neighbourhood,
                          const RayStream& rays, const ScreenRays& screen_rays, size_t i, double l_end,
-                         bool with_primitives) {
+                         const std::optional<PathStop>& stop, bool with_primitives) {
   const int width = surfaces.depth.width();
-  const int x0 = static_cast<int>(rays.pixel[i]) % width, y0 = static_cast<int>(rays.pixel[i]) / width;
+  const auto place_of = [&](uint32_t pixel) {
+    return ivec2(static_cast<int>(pixel) % width, static_cast<int>(pixel) / width);
+  };
+  const ivec2 from = place_of(rays.pixel[i]);
   const auto ray = screen_rays.get<float>(i);
   const auto exact = screen_rays.get<double>(i);
-  const CellSearch search{surfaces, rays, exact, i, with_primitives, surfaces.gbuffer.primitive(x0, y0)};
+  const CellSearch search{
+      surfaces, rays, exact, i, with_primitives, surfaces.gbuffer.primitive(from.x, from.y)};
   PathFindings found;
-  CellWalk<float> walk(ray, width, surfaces.depth.height(), x0, y0);
-  const int top = neighbourhood.levels() - 1;
+  CellWalk<float> walk(ray, width, surfaces.depth.height(), from.x, from.y);
+  const SlantedPyramid& bounds = neighbourhood.pyramid;
+  const int top = bounds.levels() - 1;
+  bool in_own_pixel = true;
   for (int level = 0;;) {
     const auto exit = walk.exit(level);
     const bool ends = l_end <= exit.l();
     const double leave = ends ? l_end : exit.l();
-    const float farthest = std::max(ray.rise(walk.l), ray.rise(static_cast<float>(leave)));
     ++found.steps;
-    const bool clear = farthest <= neighbourhood.at(level, walk.px >> level, walk.py >> level) - ray.oz;
+    const bool clear =
+        !may_be_behind(bounds, level, walk.px, walk.py, ray, walk.l, static_cast<float>(leave));
     if (!clear && level > 0) {
       walk.descend(level--);
       continue;
     }
     if (!clear) search(walk.px, walk.py, walk.l, leave, found);
     if (found.met || ends || !walk.advance(exit)) return found;
-    if (clear) level = std::min(level + 1, top);
+    if (in_own_pixel) {
+      if (!stop || stop->l >= l_end) return found;
+      const ivec2 there = place_of(stop->pixel);
+      walk.px = there.x, walk.py = there.y, walk.l = stop->l;
+      in_own_pixel = false;
+    } else if (clear) {
+      level = std::min(level + 1, top);
+    }
   }
 }
 

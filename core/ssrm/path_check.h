@@ -5,7 +5,7 @@
 
 #include "core/gbuffer/gbuffer.h"
 #include "core/scene/scene.h"
-#include "core/ssrm/correction.h"
+#include "core/ssrm/slanted_bounds.h"
 
 #include <optional>
 
@@ -24,9 +24,9 @@ struct SurfaceView {
 // behind it on the same side. Half of the change of slope is allowed on top, as a curved surface needs.
 bool continuous_or_behind(const DepthView& depth, ivec2 a, ivec2 n);
 
-// Pyramid over the neighbourhood depth: at level 0 the nearest depth that the surface seen in any of a
-// pixel's 3x3 neighbours, as a plane, has over the area of the pixel itself. Rounded toward the viewer.
-DepthPyramid neighbourhood_pyramid(const DepthView& depth);
+// Bounds over the neighbourhood depth: nothing that the surfaces seen in a pixel's 3x3 neighbours, as planes,
+// have over the area of the pixel itself is nearer. All threads; `bounds` has the view's size.
+void bound_neighbourhood(const DepthView& depth, SlantedBounds& bounds);
 
 // A place where the ray meets a primitive.
 struct SurfaceCrossing {
@@ -41,13 +41,20 @@ struct PathFindings {
   // that pixel's centre, although it does not meet its primitive (or that was not asked), and the surface
   // there does not join the one that the ray's pixel shows.
   std::optional<double> doubtful;
-  uint64_t steps = 0;  // texels read of the neighbourhood pyramid
+  uint64_t steps = 0;  // texels read of the bounds
+};
+
+// The pixel at which a ray is next not in front of the bounds, after its own, and L where it enters it.
+struct PathStop {
+  uint32_t pixel;
+  float l;
 };
 
 // Ray `i` from its own pixel up to screen parameter `l_end`. `with_primitives` tests the primitive behind
-// each plane that the ray passes; without, every plane so passed is doubtful.
-PathFindings search_path(const SurfaceView& surfaces, const DepthPyramid& neighbourhood,
+// each plane that the ray passes; without, every plane so passed is doubtful. `stop`: where a march against
+// the bounds stopped it; none if it did not.
+PathFindings search_path(const SurfaceView& surfaces, const SlantedBounds& neighbourhood,
                          const RayStream& rays, const ScreenRays& screen_rays, size_t i, double l_end,
-                         bool with_primitives);
+                         const std::optional<PathStop>& stop, bool with_primitives);
 
 }  // namespace hybray::ssrm

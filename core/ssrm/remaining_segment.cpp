@@ -43,20 +43,17 @@ bool answers_differ(float from_origin, float from_start) {
 
 void build_conservative(const GBuffer& gbuffer, const Scene& scene, ExactSegments& segments) {
   make_conservative_depth(gbuffer, scene, segments.depth);
-  const int sign = gbuffer.view.depth_sign();
-  const float to_march = static_cast<float>(sign), background = gbuffer.view.background_depth();
+  const float to_march = static_cast<float>(gbuffer.view.depth_sign());
+  const float background = gbuffer.view.background_depth();
   const ConservativeDepth& depth = segments.depth;
   parallel_blocks(depth.nearest.size(), 65536, [&](size_t begin, size_t end) {
     for (size_t i = begin; i < end; ++i) {
-      const bool slants = depth.nearest[i] != background &&
-                          depth.intercept[i] > to_march * depth.nearest[i] &&
-                          to_march * depth.intercept[i] != background;
-      segments.bound_depth[i] = slants ? to_march * depth.intercept[i] : depth.nearest[i];
-      segments.bound_slopes[i] = slants ? gbuffer.depth_derivatives[i] : vec2(0.0f);
+      const float flat = depth.nearest[i] != background ? to_march * depth.nearest[i]
+                                                        : std::numeric_limits<float>::infinity();
+      segments.bounds.set(i, flat, depth.intercept[i], to_march * gbuffer.depth_derivatives[i]);
     }
   });
-  segments.bounds.build(segments.bound_depth, segments.bound_slopes, sign, background);
-  segments.pyramid.build(segments.bound_depth, sign, background, 1);
+  segments.bounds.build();
 }
 
 void exact_segments(const GBuffer& gbuffer, const Scene& scene, const RayStream& rays,
@@ -68,8 +65,7 @@ void exact_segments(const GBuffer& gbuffer, const Scene& scene, const RayStream&
     s.misses[i] = 0;
     if (s.depth.origin_clear[rays.pixel[i]]) s.clear.push_back(i);
   }
-  const DepthView depth{s.pyramid, s.bound_slopes, gbuffer.view.depth_sign(), &s.bounds};
-  march_some(depth, screen_rays, rays.pixel, s.clear,
+  march_some(s.bounds.view(), screen_rays, rays.pixel, s.clear,
              {.code = code, .marcher = Marcher::plane, .correct = false}, s.results);
   centre_segments(rays, gbuffer.view, scene.bounds, s.results.proved, s.clear, s.t_near);
   for (const uint32_t i : s.clear) s.misses[i] = s.results.verdict[i] == Verdict::miss;

@@ -3,6 +3,7 @@
 
 #include "core/gbuffer/conservative_depth.h"
 #include "core/ssrm/march.h"
+#include "core/ssrm/slanted_bounds.h"
 
 #include <span>
 #include <vector>
@@ -27,20 +28,13 @@ bool answers_differ(float from_origin, float from_start);
 // What exact_segments() needs besides its input, kept between runs.
 struct ExactSegments {
   ConservativeDepth depth;
-  Image2D<float> bound_depth;   // of each pixel's bound, the better of the flat and the slanted one ...
-  Image2D<vec2> bound_slopes;   // ... in device depth
-  SlantedPyramid bounds;        // over these
-  DepthPyramid pyramid;         // its first level, over bound_depth
+  SlantedBounds bounds;         // the same for the march
   std::vector<uint32_t> clear;  // rays whose own pixel is clear
   MarchResults results;         // of those
   std::vector<float> t_near;    // of the listed rays; 0 where nothing is proved
   std::vector<uint8_t> misses;  // of the listed rays: 1 where nothing lies on the whole ray
 
-  ExactSegments(const View& view, size_t rays)
-      : bound_depth(view.width(), view.height()),
-        bound_slopes(view.width(), view.height()),
-        bounds(view.width(), view.height()),
-        pyramid(view.width(), view.height()) {
+  ExactSegments(const View& view, size_t rays) : bounds(view.width(), view.height()) {
     results.resize(rays);
     results.ask_proved();
     t_near.resize(rays);

@@ -99,30 +99,37 @@ metrics::VerdictTable judged(const Point& point, const SsrmSetup& setup, const J
                         setup.scene, {point.number("footprint_factor")}, classes);
 }
 
+std::optional<ssrm::PathCheck> path_check(HitCheck check, const ssrm::SurfaceView& surfaces,
+                                          const SsrmFrame& frame) {
+  if (!checks_path(check)) return std::nullopt;
+  std::optional<ssrm::PathCheck> path(std::in_place, surfaces.depth, frame.rays().size());
+  ssrm::bound_neighbourhood(surfaces.depth, path->neighbourhood);
+  return path;
+}
+
 // `marched`: before the check. `rays` must not be empty.
 void add_times(Row& row, const Point& point, const SsrmFrame& frame, const Marcher& marcher,
                const ssrm::SurfaceView& surfaces, const MarchResults& marched, int repeats, uint64_t seed) {
   const HitCheck check = check_of(point);
   MarchResults results = marched, checked = marched, paper = marched;
-  std::optional<DepthPyramid> neighbourhood;
-  if (needs_neighbourhood(check)) neighbourhood = ssrm::neighbourhood_pyramid(surfaces.depth);
+  std::optional<ssrm::PathCheck> path = path_check(check, surfaces, frame);
   enum { kMarch, kPaper, kNeighbourhood, kCheck };
   std::vector<Variant> variants = {{"march", [&] { marcher.march(point, frame, results); }},
                                    {"paper_march", [&] { march_paper(point, frame, paper); }}};
   if (check != HitCheck::none) {
     variants.push_back({"neighbourhood", [&] {
-                          if (neighbourhood) neighbourhood = ssrm::neighbourhood_pyramid(surfaces.depth);
+                          if (path) ssrm::bound_neighbourhood(surfaces.depth, path->neighbourhood);
                         }});
     variants.push_back({"check", [&] {
                           checked = marched;
-                          check_hits(surfaces, neighbourhood ? &*neighbourhood : nullptr, frame.rays(),
-                                     frame.screen_rays, check, checked);
+                          check_hits(surfaces, path ? &*path : nullptr, frame.rays(), frame.screen_rays,
+                                     check, checked);
                         }});
   }
   const InterleavedTimes times = time_interleaved(variants, repeats, seed);
   std::vector<double> whole(times.of(kMarch).begin(), times.of(kMarch).end());
   for (size_t v = 0; v < variants.size(); ++v) {
-    if (v == kNeighbourhood && !neighbourhood) continue;
+    if (v == kNeighbourhood && !path) continue;
     put_time(row, variants[v].name, times.of(v));
     if (v >= kNeighbourhood)
       for (size_t r = 0; r < whole.size(); ++r) whole[r] += times.of(v)[r];
@@ -165,11 +172,10 @@ Row run(const Point& point, Workspace& workspace) {
   row["alpha_unchecked"] = share(judged(point, setup, shared, marched, &before).hits(), rays);
   MarchResults results = marched;
   if (check != HitCheck::none) {
-    std::optional<DepthPyramid> neighbourhood;
-    if (needs_neighbourhood(check)) neighbourhood = ssrm::neighbourhood_pyramid(depth);
-    const ssrm::CheckCounts counts = check_hits(surfaces, neighbourhood ? &*neighbourhood : nullptr,
-                                                frame.rays(), frame.screen_rays, check, results);
-    if (neighbourhood) row["check_steps_per_hit"] = share(counts.steps, counts.checked);
+    std::optional<ssrm::PathCheck> path = path_check(check, surfaces, frame);
+    const ssrm::CheckCounts counts =
+        check_hits(surfaces, path ? &*path : nullptr, frame.rays(), frame.screen_rays, check, results);
+    if (path) row["check_steps_per_hit"] = share(counts.steps, counts.checked);
   }
   add_verdict_cells(row, judged(point, setup, shared, results, &after));
   uint64_t lost = 0;

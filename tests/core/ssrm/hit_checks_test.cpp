@@ -25,6 +25,12 @@ Scene floor_and_wall() {
   return scene;
 }
 
+// Bounds that no ray is in front of, so that every pixel of a path is looked at.
+void bound_nothing(SlantedBounds& bounds) {
+  for (size_t i = 0; i < bounds.depth.size(); ++i) bounds.set(i, -1e6f, -1e6f, vec2(0.0f));
+  bounds.build();
+}
+
 struct Checked {
   const Tracer tracer;
   const View view;
@@ -40,12 +46,17 @@ struct Checked {
         truth(truth::trace_truth(tracer, main.rays, view)),
         marched(main.march()) {}
 
-  MarchResults check(HitCheck how, CheckCounts* counts = nullptr) const {
+  enum class Bounds { tight, nowhere_clear };
+  MarchResults check(HitCheck how, CheckCounts* counts = nullptr, Bounds bounds = Bounds::tight) const {
     MarchResults results = marched;
     const DepthView depth = main.depth();
-    const DepthPyramid neighbourhood = neighbourhood_pyramid(depth);
-    const CheckCounts c = check_hits({depth, main.gbuffer, tracer.scene()}, &neighbourhood, main.rays,
-                                     main.screen_rays, how, results);
+    PathCheck path(depth, main.rays.size());
+    if (bounds == Bounds::tight)
+      bound_neighbourhood(depth, path.neighbourhood);
+    else
+      bound_nothing(path.neighbourhood);
+    const CheckCounts c =
+        check_hits({depth, main.gbuffer, tracer.scene()}, &path, main.rays, main.screen_rays, how, results);
     if (counts) *counts = c;
     return results;
   }
@@ -180,7 +191,7 @@ TEST(HitChecks, OnlyHitsChangeAndTheyBecomeRejectedAndAreCounted) {
     EXPECT_EQ(counts.rejected, rejected);
     EXPECT_GT(rejected, 0u) << label(how);
     EXPECT_LT(rejected, hits) << label(how);
-    EXPECT_EQ(counts.steps > 0, needs_neighbourhood(how));
+    EXPECT_EQ(counts.steps > 0, checks_path(how));
   }
 }
 
@@ -222,34 +233,66 @@ TEST(HitChecks, ACreaseIsContinuousAndAStepToTheFrontIsNot) {
   EXPECT_GT(steps, 20);
 }
 
-TEST(NeighbourhoodPyramid, ItsTexelsAreNearestOverAllThreeByThreePlanesAtThePixelsCorners) {
+// Depth, at offset (dx, dy) from a pixel's centre, of the nearest plane seen in its 3x3 block.
+double nearest_of_block(const DepthView& depth, int x, int y, double dx, double dy) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int ny = std::max(0, y - 1); ny <= std::min(depth.height() - 1, y + 1); ++ny)
+    for (int nx = std::max(0, x - 1); nx <= std::min(depth.width() - 1, x + 1); ++nx) {
+      const dvec2 d = double(depth.depth_sign) * dvec2(depth.derivatives(nx, ny));
+      nearest = std::min(nearest, depth.pyramid.at(0, nx, ny) + d.x * (x + dx - nx) + d.y * (y + dy - ny));
+    }
+  return nearest;
+}
+
+TEST(NeighbourhoodBounds, AreNowhereBehindThePlanesOfTheBlockAndReachThemOnOneSurface) {
   const Scene scene = test::triangle_soup(60, 1.5f, 2.0f, kSeed);
   for (const DepthConvention convention : {DepthConvention::standard, DepthConvention::reversed}) {
     const Checked c(scene, Camera{"c", vec3(0, 0, 5), vec3(0)}, 65, 33, convention);
     const DepthView depth = c.main.depth();
-    const DepthPyramid pyramid = neighbourhood_pyramid(depth);
-    int covered = 0;
+    SlantedBounds bounds(65, 33);
+    bound_neighbourhood(depth, bounds);
+    int covered = 0, reached = 0;
     for (int y = 0; y < 33; ++y)
       for (int x = 0; x < 65; ++x) {
-        double nearest = std::numeric_limits<double>::infinity();
-        for (int ny = std::max(0, y - 1); ny <= std::min(32, y + 1); ++ny)
-          for (int nx = std::max(0, x - 1); nx <= std::min(64, x + 1); ++nx)
-            for (const double cx : {-0.5, 0.5})
-              for (const double cy : {-0.5, 0.5}) {
-                const dvec2 d = double(depth.depth_sign) * dvec2(depth.derivatives(nx, ny));
-                nearest = std::min(nearest,
-                                   depth.pyramid.at(0, nx, ny) + d.x * (x + cx - nx) + d.y * (y + cy - ny));
-              }
-        const double stored = pyramid.at(0, x, y);
-        if (std::isinf(nearest)) {
-          EXPECT_TRUE(std::isinf(stored));
-          continue;
-        }
-        EXPECT_LE(stored, nearest + 1e-15 * std::abs(nearest));
-        EXPECT_NEAR(stored, nearest, 0x1p-22 * std::abs(nearest));
+        const double center = bounds.depth(x, y);
+        const dvec2 slope(bounds.slopes(x, y));
+        double least = std::numeric_limits<double>::infinity();
+        for (const double dx : {-0.5, 0.0, 0.5})
+          for (const double dy : {-0.5, 0.0, 0.5}) {
+            const double nearest = nearest_of_block(depth, x, y, dx, dy);
+            EXPECT_EQ(std::isinf(nearest), std::isinf(center));
+            if (std::isinf(center)) continue;
+            const double gap = nearest - (center + slope.x * dx + slope.y * dy);
+            EXPECT_GE(gap, -1e-15 * std::abs(nearest)) << x << " " << y;
+            least = std::min(least, gap);
+          }
+        if (std::isinf(center)) continue;
         ++covered;
+        // One rounding of the depth to float: no bound is lower than the planes ask for, but where they
+        // cross.
+        reached += least <= 0x1p-23 * std::abs(center);
       }
     EXPECT_GT(covered, 500);
+    EXPECT_GT(reached, covered / 2);
+  }
+}
+
+TEST(HitChecks, BoundsTakeNothingFromTheSearchOfEveryPixel) {
+  for (const char* name : {"sphere", "street"}) {
+    const Scene scene = load_scene(test::scene_paths(), name);
+    for (const Camera& camera : scene.cameras)
+      for (const DepthConvention convention : {DepthConvention::standard, DepthConvention::reversed}) {
+        const Checked c(scene, camera, 211, 119, convention);
+        for (const HitCheck how : {HitCheck::conservative, HitCheck::strict}) {
+          CheckCounts few, many;
+          const MarchResults bounded = c.check(how, &few),
+                             everywhere = c.check(how, &many, Checked::Bounds::nowhere_clear);
+          EXPECT_EQ(bounded.verdict, everywhere.verdict) << name << " " << camera.name << " " << label(how);
+          EXPECT_EQ(bounded.pixel, everywhere.pixel) << name << " " << camera.name << " " << label(how);
+          EXPECT_EQ(bounded.distance, everywhere.distance);
+          EXPECT_LT(few.steps, many.steps);
+        }
+      }
   }
 }
 
