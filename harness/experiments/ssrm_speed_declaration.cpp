@@ -100,6 +100,7 @@ std::vector<Column> columns() {
     time("t_oracle_runs", "as t_predicted by a predictor that knows each tile's share of HITs, for nothing");
     time("t_free", "compaction and trace alone: a march that costs nothing");
     time("t_centre", "hybrid with the remaining segment by pixel centres");
+    time("t_predicted_centre", "the same with the predictor");
     time("t_exact", "hybrid with the exact remaining segment, conservative depth included");
     time("t_exact_given", "the same with the conservative depth given");
   }
@@ -110,6 +111,7 @@ std::vector<Column> columns() {
   add_ratio(c, "speedup_oracle_runs", "t_hw / t_oracle_runs");
   add_ratio(c, "speedup_free", "t_hw / t_free");
   add_ratio(c, "speedup_centre", "t_hw / t_centre");
+  add_ratio(c, "speedup_predicted_centre", "t_hw / t_predicted_centre");
   add_ratio(c, "speedup_exact", "t_hw / t_exact");
   add_ratio(c, "speedup_measured_vs_single", "t_hw_single / t_hybrid_single");
   add_ratio(c, "speedup_predicted_vs_single", "t_hw_single / t_predicted_single");
@@ -117,6 +119,7 @@ std::vector<Column> columns() {
   add_ratio(c, "speedup_oracle_runs_vs_single", "t_hw_single / t_oracle_runs_single");
   add_ratio(c, "speedup_free_vs_single", "t_hw_single / t_free_single");
   add_ratio(c, "speedup_centre_vs_single", "t_hw_single / t_centre_single");
+  add_ratio(c, "speedup_predicted_centre_vs_single", "t_hw_single / t_predicted_centre_single");
   add_ratio(c, "speedup_exact_vs_single", "t_hw_single / t_exact_single");
   add_ratio(c, "speedup_exact_given_vs_single", "t_hw_single / t_exact_given_single");
   add_interval(
@@ -161,7 +164,7 @@ double memory_bytes(const Point& point) {
 double cost_seconds(const Point& point, const SceneFacts& scene) {
   const double pixels = pixels_of(point);
   const double triangles = static_cast<double>(scene.triangles), depth = std::log2(triangles + 2.0);
-  const double round = 0.25e-6 * depth * pixels + 4e-6 * triangles;
+  const double round = 0.15e-6 * depth * pixels + 2.5e-6 * triangles;
   return 1e-6 * pixels + round * (static_cast<double>(point.integer("repeats")) + 1.0);
 }
 

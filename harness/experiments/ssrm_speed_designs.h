@@ -66,20 +66,20 @@ class Designs {
     compact(buffers.results);
     trace(mode);
   }
-  // By the history, where the predictor has one.
-  void predict(const Predictor& by) {
+  // By the history, where the predictor has one. Rays that are left are proved up to nowhere.
+  void predict(const Predictor& by, ssrm::MarchResults& results) {
     const ssrm::DepthView depth = frame_.depth();
     const ssrm::MarchInput input{depth, frame_.screen_rays, frame_.rays().pixel, lanes};
     if (by.history) {
       after_ = *by.history;  // which this frame changes, and no repeat may see
-      ssrm::march_by_history(input, setup_.view, by.least, after_, buffers.results, prediction);
+      ssrm::march_by_history(input, setup_.view, by.least, after_, results, prediction);
     } else {
-      ssrm::march_by_sample(input, by.least, buffers.results, prediction);
+      ssrm::march_by_sample(input, by.least, results, prediction);
     }
   }
   void predicted(TraceMode mode, const Predictor& by) {
     build_pyramid();
-    predict(by);
+    predict(by, buffers.results);
     compact(buffers.results);
     trace(mode);
   }
@@ -107,10 +107,12 @@ class Designs {
   void centre(TraceMode mode, ssrm::MarchResults& results) {
     build_pyramid();
     march(lanes, results);
-    compact(results);
-    ssrm::centre_segments(frame_.rays(), setup_.view, setup_.scene.bounds, results.proved, buffers.unresolved,
-                          t_near);
-    trace(mode, t_near);
+    trace_from_centres(mode, results);
+  }
+  void predicted_centre(TraceMode mode, const Predictor& by, ssrm::MarchResults& results) {
+    build_pyramid();
+    predict(by, results);
+    trace_from_centres(mode, results);
   }
   void build_conservative() { ssrm::build_conservative(frame_.gbuffer, setup_.scene, exact); }
   void exact_segments() {
@@ -128,6 +130,13 @@ class Designs {
   }
 
  private:
+  void trace_from_centres(TraceMode mode, const ssrm::MarchResults& results) {
+    compact(results);
+    ssrm::centre_segments(frame_.rays(), setup_.view, setup_.scene.bounds, results.proved, buffers.unresolved,
+                          t_near);
+    trace(mode, t_near);
+  }
+
   const SsrmSetup& setup_;
   SsrmFrame& frame_;
   const Tracer& tracer_;

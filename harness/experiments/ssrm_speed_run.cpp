@@ -120,7 +120,7 @@ std::array<Predictor, 2> predictors_of(const Point& point, const SsrmSetup& setu
 void add_predictions(Row& row, const std::array<Predictor, 2>& predictors, Designs& d, size_t rays) {
   for (const bool single : {false, true}) {
     const std::string end = single ? "_single" : "";
-    d.predict(predictors[single]);
+    d.predict(predictors[single], d.buffers.results);
     row["alpha_predicted" + end] = share(hits_of(d.buffers.results), rays);
     row["predicted" + end + "_fraction"] = share(rays - d.prediction.marched, rays);
   }

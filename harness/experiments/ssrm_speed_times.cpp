@@ -95,6 +95,7 @@ void add_times(Row& row, const Point& point, const SsrmFrame& frame, const Trace
   const bool certified = point.boolean("certified_misses");
   ssrm::MarchResults proving = d.buffers.results;
   proving.ask_proved();
+  ssrm::MarchResults predicted = proving;
   const std::array worth{worthwhile_runs(proving.verdict, predictors[0].least),
                          worthwhile_runs(proving.verdict, predictors[1].least)};
 
@@ -131,6 +132,7 @@ void add_times(Row& row, const Point& point, const SsrmFrame& frame, const Trace
     });
     if (!segments) continue;
     add("t_centre", [&, mode] { d.centre(mode, proving); });
+    add("t_predicted_centre", [&, mode] { d.predicted_centre(mode, by, predicted); });
     add("t_exact", [&, mode] { d.exact_hybrid(mode, certified, true); });
     add("t_exact_given", [&, mode] { d.exact_hybrid(mode, certified, false); });
   }
@@ -155,6 +157,7 @@ void add_times(Row& row, const Point& point, const SsrmFrame& frame, const Trace
     put_speedup("free", "t_free");
     if (segments) {
       put_speedup("centre", "t_centre");
+      put_speedup("predicted_centre", "t_predicted_centre");
       put_speedup("exact", "t_exact");
     }
     put_efficiency(row, "predictor_efficiency" + end, hybrid, of["t_predicted" + end], oracle, seed);

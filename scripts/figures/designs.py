@@ -11,7 +11,8 @@ from matplotlib.patches import Patch
 
 # Column without its end, name, colour.
 DESIGNS = (("measured", "march all", style.BLUE), ("predicted", "predictor", style.SKY), ("centre", "remaining segment, centre", style.GREEN),
-           ("exact", "remaining segment, exact", style.ORANGE), ("oracle", "perfect predictor", style.PURPLE), ("free", "free marcher", style.BLACK))
+           ("predicted_centre", "predictor and that segment", style.VERMILLION), ("exact", "remaining segment, exact", style.ORANGE),
+           ("oracle", "perfect predictor", style.PURPLE), ("free", "free marcher", style.BLACK))
 
 
 def bars(axis: Axes, rows: list[Row], end: str) -> None:
