@@ -55,7 +55,7 @@ TEST(RemainingSegment, ExactChangesNoHitAndNoCertifiedMissHitsAnything) {
         }
   }
   EXPECT_GT(started, rays / 20) << "of " << rays;
-  EXPECT_GT(certified, 50u);
+  EXPECT_GT(certified, 100u);
 }
 
 TEST(RemainingSegment, AnswersDifferByMoreThanRoundingOrByMissing) {
